@@ -1,0 +1,1 @@
+"""phframe plans how a robot arm pushes through clutter, with persistent homology."""

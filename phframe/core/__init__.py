@@ -1,0 +1,110 @@
+"""The language of phframe: data types, the abstract interfaces, Task and the errors. Depends on nothing else of ours."""
+
+from phframe.core.arm import ArmModel, ArmShape, Joint, Outline
+from phframe.core.corridor import Corridor, Rectangle, Sweep
+from phframe.core.episode import Episode, Setup, Step
+from phframe.core.errors import (
+    ArmError,
+    BudgetExceededError,
+    IncompatibleError,
+    InputError,
+    NotInstalledError,
+    OptionError,
+    PhframeError,
+    PluginError,
+    SceneError,
+    SimulationDivergedError,
+    UnknownNameError,
+)
+from phframe.core.gripper_path import Action, Contacts, GripperPath, Phase, PhaseRule
+from phframe.core.motion import Contact, Motion, Transition
+from phframe.core.motion_planner import MotionPlanner, Unreachable
+from phframe.core.options import Options
+from phframe.core.physics import Physics, Settle, Stop, SupportsPropagation, Watch
+from phframe.core.plan import Cost, Decision, Plan, Status
+from phframe.core.planner import Planner
+from phframe.core.pose import compose, inverse, planar_pose, rotate, tilt_of, turn, yaw_of
+from phframe.core.scene import Cylinder, Mount, Scene, SceneObject, Shape, Shelf, coulomb_with_board
+from phframe.core.state import ArmState, Condition, State
+from phframe.core.suite import SceneSuite
+from phframe.core.task import Budget, Task
+from phframe.core.topology import PersistenceDiagram, TopologyEngine
+from phframe.core.trajectory import GripperTrajectory, JointTrajectory, Trajectory, starting_from, time_path
+from phframe.core.value import FloatArray, Floats, IntArray, Ints, Value
+
+__all__ = [
+    "Action",
+    "ArmError",
+    "ArmModel",
+    "ArmShape",
+    "ArmState",
+    "Budget",
+    "BudgetExceededError",
+    "Condition",
+    "Contact",
+    "Contacts",
+    "Corridor",
+    "Cost",
+    "Cylinder",
+    "Decision",
+    "Episode",
+    "FloatArray",
+    "Floats",
+    "GripperPath",
+    "GripperTrajectory",
+    "IncompatibleError",
+    "InputError",
+    "IntArray",
+    "Ints",
+    "Joint",
+    "JointTrajectory",
+    "Motion",
+    "MotionPlanner",
+    "Mount",
+    "NotInstalledError",
+    "OptionError",
+    "Options",
+    "Outline",
+    "PersistenceDiagram",
+    "Phase",
+    "PhaseRule",
+    "PhframeError",
+    "Physics",
+    "Plan",
+    "Planner",
+    "PluginError",
+    "Rectangle",
+    "Scene",
+    "SceneError",
+    "SceneObject",
+    "SceneSuite",
+    "Settle",
+    "Setup",
+    "Shape",
+    "Shelf",
+    "SimulationDivergedError",
+    "State",
+    "Status",
+    "Step",
+    "Stop",
+    "SupportsPropagation",
+    "Sweep",
+    "Task",
+    "TopologyEngine",
+    "Trajectory",
+    "Transition",
+    "Unreachable",
+    "UnknownNameError",
+    "Value",
+    "Watch",
+    "compose",
+    "coulomb_with_board",
+    "inverse",
+    "planar_pose",
+    "rotate",
+    "starting_from",
+    "tilt_of",
+    "time_path",
+    "turn",
+    "yaw_of",
+]

@@ -1,0 +1,147 @@
+"""A plan carried out, closed loop."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from phframe.core.gripper_path import Action
+from phframe.core.motion import Motion
+from phframe.core.plan import Cost, Decision, Plan, Status
+from phframe.core.scene import Scene
+from phframe.core.state import Condition, State
+from phframe.core.trajectory import Trajectory
+from phframe.core.value import Value
+
+
+@dataclass(frozen=True, slots=True)
+class Setup:
+    """With what an episode was run, by registered names: enough to run it again.
+
+    Attributes:
+        planner: Name of the planner.
+        backend: Name of the physics backend that carried the plan out, and on which it was made.
+        arm: Name of the arm.
+        topology: Name of the topology engine.
+        seed: Seed of everything random.
+        options: Options that differ from the defaults, by ``planner``, ``backend``, ``arm`` or ``topology`` and key.
+        versions: Versions of phframe and the libraries used.
+    """
+
+    planner: str
+    backend: str
+    arm: str
+    topology: str
+    seed: int
+    options: Mapping[str, Mapping[str, str | float | int | bool | None]] = field(default_factory=dict)
+    versions: Mapping[str, str] = field(default_factory=dict, compare=False)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Step(Value):
+    """One action carried out.
+
+    Attributes:
+        action: What was to be done.
+        trajectory: What was driven.
+        before: The world observed before it.
+        after: The world observed after it.
+        expected: What the plan expected after it; None where nothing was predicted.
+        motion: What happened.
+        decision: Why the action was chosen.
+        plan: Index of the episode's plan it comes from.
+    """
+
+    action: Action
+    trajectory: Trajectory
+    before: State
+    after: State
+    expected: State | None
+    motion: Motion
+    decision: Decision
+    plan: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Episode(Value):
+    """A plan carried out, closed loop: what was planned, what was done, what became of it.
+
+    Attributes:
+        scene: The scene.
+        setup: With what it was run.
+        status: How far it got.
+        reason: Why no farther; empty where the target was retrieved.
+        plans: All plans, the replans included.
+        steps: All actions carried out.
+    """
+
+    scene: Scene
+    setup: Setup
+    status: Status
+    reason: str
+    plans: tuple[Plan, ...]
+    steps: tuple[Step, ...]
+
+    @property
+    def final_state(self) -> State:
+        """The world at the end."""
+        return self.steps[-1].after if self.steps else self.scene.initial_state()
+
+    @property
+    def pushes(self) -> int:
+        """Number of pushing actions carried out: the paper's number of actions."""
+        return sum(not step.action.grasps for step in self.steps)
+
+    @property
+    def replans(self) -> int:
+        """How often the planner was asked again."""
+        return max(len(self.plans) - 1, 0)
+
+    @property
+    def cost(self) -> Cost:
+        """What all plans together cost."""
+        return sum((plan.cost for plan in self.plans), Cost())
+
+    @property
+    def execution_time(self) -> float:
+        """Time the robot moved or waited for rest (simulated or real s)."""
+        return sum(step.motion.duration for step in self.steps)
+
+    @property
+    def choices(self) -> Counter[str]:
+        """How often each of phframe's own settlements was used in the actions carried out."""
+        return Counter(choice for step in self.steps for choice in step.decision.choices)
+
+    @property
+    def toppled(self) -> tuple[str, ...]:
+        """Ids of the objects that lie on their side."""
+        return self._in_condition(Condition.TOPPLED)
+
+    @property
+    def spilled(self) -> tuple[str, ...]:
+        """Ids of the objects that left the board, without a retrieved target."""
+        return self._in_condition(Condition.SPILLED)
+
+    def _in_condition(self, condition: Condition) -> tuple[str, ...]:
+        pairs = zip(self.scene.ids, self.final_state.conditions, strict=True)
+        return tuple(name for name, found in pairs if found is condition)
+
+    @property
+    def target_moved(self) -> float:
+        """How far pushing displaced the target before the grasp (m)."""
+        row, start = self.scene.target_index, self.scene.initial_state()
+        pushed = [step.after for step in self.steps if not step.action.grasps]
+        last = pushed[-1] if pushed else start
+        return float(((last.poses[row, :3] - start.poses[row, :3]) ** 2).sum() ** 0.5)
+
+    @property
+    def wall_contact(self) -> bool:
+        """Whether the arm ever touched a wall."""
+        return any(step.motion.wall_contacts for step in self.steps)
+
+    @property
+    def clean(self) -> bool:
+        """Retrieved, and no object other than the target toppled or left the board, and the arm touched no wall."""
+        harmed = {*self.toppled, *self.spilled} - {self.scene.target}
+        return self.status is Status.RETRIEVED and not harmed and not self.wall_contact

@@ -1,0 +1,102 @@
+"""Every exception phframe raises on purpose, under one root.
+
+The message is built here, from the facts, so that each one says what is wrong, where, what exists instead and what to
+do about it. The command line turns them into one line and an exit code.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+
+
+class PhframeError(Exception):
+    """Root of all exceptions raised by phframe."""
+
+
+class InputError(PhframeError):
+    """Something the user gave cannot be used: a file, an option, a name, a value."""
+
+
+class SceneError(InputError):
+    """A scene that cannot be: bad fields, objects overlapping or outside the shelf, no target.
+
+    Args:
+        problems: One sentence per thing that is wrong.
+        source: The file or name of the scene, if known.
+    """
+
+    def __init__(self, problems: str | Sequence[str], source: str | None = None) -> None:
+        self.problems = (problems,) if isinstance(problems, str) else tuple(problems)
+        self.source = source
+        super().__init__((f"{source}: " if source else "") + "; ".join(self.problems))
+
+    def __reduce__(self) -> tuple[type[SceneError], tuple[tuple[str, ...], str | None]]:
+        return type(self), (self.problems, self.source)
+
+
+class OptionError(InputError):
+    """An option that is unknown, of the wrong type or out of range."""
+
+
+class ArmError(InputError):
+    """Joint values, a pose or an opening that the arm cannot have."""
+
+
+class UnknownNameError(InputError):
+    """A name for which nothing is registered.
+
+    Args:
+        kind: What was asked for, such as ``planner``.
+        name: The name given.
+        known: The names that exist.
+        hint: What to do, such as an install line.
+    """
+
+    def __init__(self, kind: str, name: str, known: Iterable[str], hint: str = "") -> None:
+        self.kind, self.name, self.known, self.hint = kind, name, tuple(sorted(known)), hint
+        super().__init__(self._message())
+
+    def _message(self) -> str:
+        close = get_close_matches(self.name, self.known, n=1, cutoff=0.5)
+        parts = [f"no {self.kind} named {self.name!r}."]
+        if close:
+            parts.append(f"Did you mean {close[0]!r}?")
+        parts.append(f"There is: {', '.join(self.known)}." if self.known else f"There is no {self.kind} at all.")
+        return " ".join([*parts, self.hint]).strip()
+
+    def __reduce__(self) -> tuple[type[UnknownNameError], tuple[str, str, tuple[str, ...], str]]:
+        return type(self), (self.kind, self.name, self.known, self.hint)
+
+
+class NotInstalledError(PhframeError):
+    """A part that needs a library which is not installed.
+
+    Args:
+        what: What was asked for, such as ``backend 'mujoco'``.
+        library: The missing library.
+        remedy: The line that installs it, or why that is not possible here.
+    """
+
+    def __init__(self, what: str, library: str, remedy: str) -> None:
+        self.what, self.library, self.remedy = what, library, remedy
+        super().__init__(f"{what} needs {library}, which is not installed. {remedy}")
+
+    def __reduce__(self) -> tuple[type[NotInstalledError], tuple[str, str, str]]:
+        return type(self), (self.what, self.library, self.remedy)
+
+
+class PluginError(PhframeError):
+    """A plugin that does not load or does not keep to its interface."""
+
+
+class IncompatibleError(InputError):
+    """Parts that exist but cannot be used together, such as an arm and a backend."""
+
+
+class SimulationDivergedError(PhframeError):
+    """The physics engine returned poses that are not numbers or speeds that are not physical."""
+
+
+class BudgetExceededError(PhframeError):
+    """A planner asked for more simulated time, or more simulations, than its budget holds."""

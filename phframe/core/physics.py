@@ -1,0 +1,138 @@
+"""The interface of physics engines."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar, Generic, Protocol, TypeVar, runtime_checkable
+
+from phframe.core.arm import ArmModel
+from phframe.core.motion import Motion, Transition
+from phframe.core.options import Options
+from phframe.core.scene import Mount, Scene
+from phframe.core.state import State
+from phframe.core.trajectory import GripperTrajectory, JointTrajectory, Trajectory
+from phframe.core.value import FloatArray
+
+OptionsT = TypeVar("OptionsT", bound=Options)
+
+
+@dataclass(frozen=True, slots=True)
+class Settle:
+    """When the world counts as at rest after a motion.
+
+    Attributes:
+        speed: Every object's speed stays below this (m/s) ...
+        hold: ... for this long (s).
+        timeout: Stop waiting after this long (s) and say so in the motion.
+    """
+
+    speed: float = 0.005
+    hold: float = 0.05
+    timeout: float = 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """When to end a motion early. The arm then stands where it was.
+
+    Attributes:
+        force: A contact force on the arm above this (N); None: never.
+        bodies: The first contact of the arm with any of these objects.
+        wall: Any contact of the arm with a wall.
+    """
+
+    force: float | None = None
+    bodies: frozenset[str] = frozenset()
+    wall: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """Lets somebody look on while a motion runs. Watching never changes what happens.
+
+    Attributes:
+        period: Seconds of simulated time between looks.
+        look: Called with the time since the motion began (s) and the world as it is then, moving or not.
+    """
+
+    period: float
+    look: Callable[[float, State], None]
+
+
+class Physics(ABC, Generic[OptionsT]):
+    """One scene with one arm in one physics engine.
+
+    Two ways to use it, never mixed: ``simulate`` is pure and for planning; ``restore`` once and then ``execute`` again
+    and again, each going on from where the world is, is for carrying a plan out.
+
+    Contract: ``simulate(s, t)`` depends on ``s`` and ``t`` alone: the same bits every time, whatever ran before. (A
+    restored run need not equal the uninterrupted one: engines lose what they remember of their contacts.)
+    """
+
+    options_type: ClassVar[type[Options]] = Options
+    executes: ClassVar[type[GripperTrajectory] | type[JointTrajectory]] = GripperTrajectory
+    """A planar engine drives the gripper, an articulated one the joints."""
+
+    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, options: OptionsT) -> None:
+        self.scene, self.arm, self.mount, self.options = scene, arm, mount, options
+
+    @abstractmethod
+    def restore(self, state: State) -> State:
+        """Make the world be ``state``, at rest, rebuilding it if need be; return what it really holds now."""
+
+    @abstractmethod
+    def execute(
+        self, trajectory: Trajectory, *, settle: Settle | None, stop: Stop | None = None, watch: Watch | None = None
+    ) -> Motion:
+        """Drive the arm along a trajectory from where the world is.
+
+        Args:
+            trajectory: Of the kind named by ``executes``; it begins where the arm is. A parked arm goes to its beginning.
+            settle: Wait for rest afterwards; None: do not.
+            stop: When to end early, besides a stall at the trajectory's force limit.
+            watch: Look on.
+
+        Raises:
+            SimulationDivergedError: If the engine's numbers are no longer physical.
+        """
+
+    @abstractmethod
+    def observe(self) -> State:
+        """The world as it is now."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Give the engine's memory back. May be called twice."""
+
+    def simulate(
+        self,
+        state: State,
+        trajectory: Trajectory,
+        *,
+        settle: Settle | None = Settle(),  # noqa: B008 - immutable
+        stop: Stop | None = None,
+        watch: Watch | None = None,
+    ) -> Transition:
+        """What a trajectory would make of a state: a pure function of its arguments. For those, see ``execute``."""
+        self.restore(state)
+        motion = self.execute(trajectory, settle=settle, stop=stop, watch=watch)
+        return Transition(self.observe(), motion)
+
+
+SnapshotT = TypeVar("SnapshotT")
+
+
+@runtime_checkable
+class SupportsPropagation(Protocol[SnapshotT]):
+    """What a backend may offer besides, for planners that steer at control level (kinodynamic ones).
+
+    A snapshot is opaque, immutable and belongs to the backend that made it; unlike a State it holds speeds.
+    """
+
+    def snapshot(self) -> SnapshotT:
+        """The world as it is now, moving or not."""
+
+    def propagate(self, snapshot: SnapshotT, twist: FloatArray, dt: float) -> tuple[SnapshotT, Motion]:
+        """Hold a fingertip twist ``(3,)`` (m/s, m/s, rad/s, shelf frame) for ``dt`` seconds, without settling; pure."""

@@ -1,0 +1,50 @@
+"""The interface of planners."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import replace
+from typing import ClassVar, Generic, TypeVar, final
+
+from phframe.core.errors import BudgetExceededError, SimulationDivergedError
+from phframe.core.options import Options
+from phframe.core.plan import Plan, Status
+from phframe.core.task import Task
+
+OptionsT = TypeVar("OptionsT", bound=Options)
+
+
+class Planner(ABC, Generic[OptionsT]):
+    """Finds the actions that bring the target out. Stateless: one object may plan many tasks.
+
+    A planner is one class with ``search`` and, where it has options, ``options_type``::
+
+        class Mine(Planner[MyOptions]):
+            options_type = MyOptions
+
+            def search(self, task: Task) -> Plan: ...
+    """
+
+    options_type: ClassVar[type[Options]] = Options
+
+    def __init__(self, options: OptionsT) -> None:
+        self.options = options
+
+    @final
+    def plan(self, task: Task) -> Plan:
+        """Search, and always return a plan: a spent budget or a diverged simulation is a result with a reason."""
+        try:
+            plan = self.search(task)
+        except BudgetExceededError as error:
+            plan = task.offered or Plan(Status.TIMEOUT, str(error))
+        except SimulationDivergedError as error:
+            plan = task.offered or Plan(Status.FAILED, str(error))
+        return replace(plan, cost=task.cost)
+
+    @abstractmethod
+    def search(self, task: Task) -> Plan:
+        """Find a plan, trying actions with ``task.apply``.
+
+        What cannot be solved is a plan with status ``FAILED`` and a reason, never an exception and never None. Let
+        ``BudgetExceededError`` pass: ``plan`` deals with it. Do not print. Take chance from ``task.rng`` only.
+        """
