@@ -1,6 +1,7 @@
 """The language of phframe: data types, the abstract interfaces, Task and the errors. Depends on nothing else of ours."""
 
-from phframe.core.arm import ArmModel, ArmShape, Joint, Outline
+from phframe.core.arm import ArmModel, ArmShape, Fingers, Joint, Outline
+from phframe.core.condition import condition_of
 from phframe.core.corridor import Corridor, Rectangle, Sweep
 from phframe.core.episode import Episode, Setup, Step
 from phframe.core.errors import (
@@ -17,7 +18,8 @@ from phframe.core.errors import (
     UnknownNameError,
 )
 from phframe.core.gripper_path import Action, Contacts, GripperPath, Phase, PhaseRule
-from phframe.core.motion import Contact, Motion, Transition
+from phframe.core.infeasible import Infeasible
+from phframe.core.motion import FORCE_WINDOW, Contact, Motion, Transition
 from phframe.core.motion_planner import MotionPlanner, Unreachable
 from phframe.core.options import Options
 from phframe.core.physics import Physics, Settle, Stop, SupportsPropagation, Watch
@@ -33,6 +35,7 @@ from phframe.core.trajectory import GripperTrajectory, JointTrajectory, Trajecto
 from phframe.core.value import FloatArray, Floats, IntArray, Ints, Value
 
 __all__ = [
+    "FORCE_WINDOW",
     "Action",
     "ArmError",
     "ArmModel",
@@ -48,11 +51,13 @@ __all__ = [
     "Cylinder",
     "Decision",
     "Episode",
+    "Fingers",
     "FloatArray",
     "Floats",
     "GripperPath",
     "GripperTrajectory",
     "IncompatibleError",
+    "Infeasible",
     "InputError",
     "IntArray",
     "Ints",
@@ -98,6 +103,7 @@ __all__ = [
     "Value",
     "Watch",
     "compose",
+    "condition_of",
     "coulomb_with_board",
     "inverse",
     "planar_pose",

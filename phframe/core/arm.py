@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Generic, TypeVar
 
 import numpy as np
@@ -23,19 +23,23 @@ class Outline(Value):
         part: Its name, such as ``link`` or ``left finger``.
         vertices: ``(k, 2)`` counter-clockwise, in the fingertip frame (m): the origin is at the tip of the closed
             fingers, x points ahead, y to the left.
-        side: Which way it moves as the gripper opens, by half the opening: +1 to the left, -1 to the right, 0 not.
+        side: Which way it moves as the gripper opens, by half of what it opens: +1 to the left, -1 to the right, 0 not.
+        bottom: Lowest z relative to the gripper plane (m).
+        top: Highest z relative to the gripper plane (m).
     """
 
     part: str
     vertices: Floats
     side: int = 0
+    bottom: float = -0.02
+    top: float = 0.02
 
     def __post_init__(self) -> None:
         self._freeze("vertices")
 
-    def opened(self, opening: float) -> Outline:
-        """The outline as it lies with the fingers ``opening`` (m) apart."""
-        return Outline(self.part, self.vertices + [0.0, self.side * opening / 2.0], self.side)
+    def opened(self, distance: float) -> Outline:
+        """The outline as it lies with the fingers ``distance`` (m) farther apart than closed."""
+        return replace(self, vertices=self.vertices + [0.0, self.side * distance / 2.0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,12 +52,16 @@ class ArmShape:
         link_width: Width of the arm where it is widest inside the shelf (m).
         insertion_width: Width of what goes in first, fingers closed (m).
         max_opening: Largest distance between the fingers (m).
+        min_opening: Their distance when closed (m); not 0 for every gripper.
+        height: Of the gripper plane above the board (m).
     """
 
     closed: tuple[Outline, ...]
     link_width: float
     insertion_width: float
     max_opening: float
+    min_opening: float = 0.0
+    height: float = 0.06
 
     def outlines(self, opening: float) -> tuple[Outline, ...]:
         """The outlines with the fingers ``opening`` (m) apart.
@@ -61,9 +69,11 @@ class ArmShape:
         Raises:
             ArmError: If the gripper cannot open that far.
         """
-        if not 0.0 <= opening <= self.max_opening + 1e-9:
-            raise ArmError(f"the gripper opens from 0 to {self.max_opening:g} m, not to {opening:g} m")
-        return tuple(outline.opened(opening) for outline in self.closed)
+        if not self.min_opening - 1e-9 <= opening <= self.max_opening + 1e-9:
+            raise ArmError(
+                f"the gripper opens from {self.min_opening:g} to {self.max_opening:g} m, not to {opening:g} m"
+            )
+        return tuple(outline.opened(opening - self.min_opening) for outline in self.closed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,15 +95,32 @@ class Joint:
     effort: float
 
 
+@dataclass(frozen=True, slots=True)
+class Fingers:
+    """A gripper's mechanism: two coupled fingers that slide.
+
+    Attributes:
+        joints: Left and right, as named in the URDF; each travels half of what the gripper opens. Their effort is the
+            grip force of one finger (N).
+        links: Left and right: what a grasp must touch, as named in the URDF.
+    """
+
+    joints: tuple[Joint, Joint]
+    links: tuple[str, str]
+
+
 OptionsT = TypeVar("OptionsT", bound=Options)
 
 
 class ArmModel(ABC, Generic[OptionsT]):
-    """An arm's geometry and kinematics. Stateless; poses are ``(7,)`` in the frame of the arm's base."""
+    """An arm's geometry and kinematics. Stateless.
+
+    Poses ``(7,)`` are of the fingertip frame (x ahead, y left, z up with the gripper level) in the frame of the base.
+    """
 
     options_type: ClassVar[type[Options]] = Options
-    force_limit: ClassVar[float] = 60.0
-    """Contact force (N) above which the arm stalls."""
+    tip_link: ClassVar[str] = "fingertip"
+    """The link of the URDF that ``forward`` gives the pose of."""
 
     def __init__(self, options: OptionsT) -> None:
         self.options = options
@@ -107,6 +134,16 @@ class ArmModel(ABC, Generic[OptionsT]):
     @abstractmethod
     def home(self) -> FloatArray:
         """Joint values ``(dof,)`` of the parked arm, outside the shelf."""
+
+    @property
+    @abstractmethod
+    def fingers(self) -> Fingers:
+        """The gripper's mechanism."""
+
+    @property
+    def force_limit(self) -> float:
+        """Net contact force (N) above which the arm stalls."""
+        return 60.0
 
     @property
     @abstractmethod
@@ -131,7 +168,11 @@ class ArmModel(ABC, Generic[OptionsT]):
 
     @abstractmethod
     def urdf(self) -> str:
-        """The arm as URDF text, meshes excluded."""
+        """The arm as URDF text, made of primitives.
+
+        Its joints and links bear the names in ``joints``, ``fingers`` and ``tip_link``; inertias, limits and collision
+        shapes are the real ones.
+        """
 
     def within_limits(self, q: ArrayLike) -> bool:
         """Whether joint values ``(dof,)`` respect every limit."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -89,21 +90,25 @@ class Sweep:
 
     Attributes:
         direction: +1 bottom to top (towards the north), -1 top to bottom.
-        lane: y along which the arm goes in (m).
-        depth: x to which the fingertip goes in (m).
-        end: y to which it sweeps (m).
-        retreat: x at which it is out again (m).
+        depth: x at which the fingertip sweeps (m).
+        lane: y at which it begins to (m).
+        end: y at which it ends (m).
+        entry: How far the arm goes straight in before it sweeps (m).
+        exit: How far it draws straight out afterwards (m).
+        tilt: Of the arm against the corridor (rad); the paper's sweeps have none.
     """
 
     direction: Literal[1, -1]
-    lane: float
     depth: float
+    lane: float
     end: float
-    retreat: float
+    entry: float
+    exit: float
+    tilt: float = 0.0
 
     @property
     def waypoints(self) -> FloatArray:
         """``(4, 2)`` fingertip positions: before the mouth, inserted, swept, out (m)."""
-        return np.array(
-            [[self.retreat, self.lane], [self.depth, self.lane], [self.depth, self.end], [self.retreat, self.end]]
-        )
+        ahead = np.array([math.cos(self.tilt), math.sin(self.tilt)])
+        inserted, swept = np.array([self.depth, self.lane]), np.array([self.depth, self.end])
+        return np.array([inserted - self.entry * ahead, inserted, swept, swept - self.exit * ahead])

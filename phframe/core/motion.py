@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from phframe.core.gripper_path import Phase
 from phframe.core.state import State
 from phframe.core.value import Value
 
+FORCE_WINDOW = 0.02
+"""Forces on the arm are means over this long (s)."""
+
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """The first time the arm touched something.
+    """The first time, in one phase, that a part of the arm touched something.
 
     Attributes:
         time: Seconds from the start of the motion.
         body: The object's id, or ``south wall``, ``north wall``, ``back wall``, ``ceiling``, ``board``.
         phase: What the arm was doing.
+        part: Which part of the arm it was, as named in its outlines or its URDF.
     """
 
     time: float
     body: str
     phase: Phase
+    part: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,13 +35,14 @@ class Motion:
 
     Attributes:
         duration: Simulated or real time it took, settling included (s).
-        contacts: First contact of the arm with each object, in order of time.
-        wall_contacts: First contact of the arm with each wall, in order of time.
-        largest_force: The largest contact force on the arm (N).
+        contacts: First contact of each part of the arm with each object in each phase, in order of time.
+        wall_contacts: The same with walls.
+        largest_force: The largest force on the arm (N): magnitude of the sum of its contact forces, mean of 20 ms.
         stalled: Whether the force limit kept the arm from going on. It then stands where it stalled.
         stopped: Why the motion ended early (which stop condition), or None.
         tracking_error: Largest distance between where the fingertip was meant to be and where it was (m).
         settled: Whether everything came to rest in the time allowed.
+        followed: How much of the trajectory was driven (s), settling excluded.
     """
 
     duration: float
@@ -47,6 +53,7 @@ class Motion:
     stopped: str | None = None
     tracking_error: float = 0.0
     settled: bool = True
+    followed: float = 0.0
 
     @property
     def complete(self) -> bool:
@@ -64,12 +71,13 @@ class Motion:
             stopped=self.stopped or later.stopped,
             tracking_error=max(self.tracking_error, later.tracking_error),
             settled=later.settled,
+            followed=self.duration + later.followed,
         )
 
 
 def _joined(first: tuple[Contact, ...], later: tuple[Contact, ...], offset: float) -> tuple[Contact, ...]:
-    known = {contact.body for contact in first}
-    return first + tuple(Contact(c.time + offset, c.body, c.phase) for c in later if c.body not in known)
+    known = {(contact.body, contact.phase, contact.part) for contact in first}
+    return first + tuple(replace(c, time=c.time + offset) for c in later if (c.body, c.phase, c.part) not in known)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
+from phframe.core.arm import ArmModel
 from phframe.core.gripper_path import GripperPath
-from phframe.core.scene import Scene
+from phframe.core.options import Options
+from phframe.core.scene import Mount, Scene
 from phframe.core.state import State
 from phframe.core.trajectory import JointTrajectory
-from phframe.core.value import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,26 +23,41 @@ class Unreachable:
     Attributes:
         where: How far along the path it gets (m).
         why: The joint limit, the collision and with what, or the missing inverse.
+        leg: Index of the path's leg on which it ends.
+        bodies: What is collided with, if anything.
     """
 
     where: float
     why: str
+    leg: int | None = None
+    bodies: tuple[str, ...] = ()
 
 
-class MotionPlanner(ABC):
-    """Plans joint trajectories for one arm at one mount."""
+OptionsT = TypeVar("OptionsT", bound=Options)
+
+
+class MotionPlanner(ABC, Generic[OptionsT]):
+    """Plans joint trajectories for one arm at one mount in one scene."""
+
+    options_type: ClassVar[type[Options]] = Options
+
+    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, options: OptionsT) -> None:
+        self.scene, self.arm, self.mount, self.options = scene, arm, mount, options
 
     @abstractmethod
     def plan(
-        self, path: GripperPath, start: FloatArray, scene: Scene, state: State, seconds: float, rng: np.random.Generator
+        self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
         """Lift a path to joints.
 
+        Inside the shelf the fingertip follows the path in the gripper plane; how the arm gets from where it is to the
+        path's first pose is up to the planner, and may leave that plane. The speeds of the path's rules are upper
+        bounds, and its rules say what may be touched.
+
         Args:
-            path: Where the gripper is to go; how it gets to the path's first pose is up to the planner.
-            start: Joint values ``(dof,)`` where the arm is.
-            scene: The shelf.
-            state: Where the objects are.
+            path: Where the gripper is to go.
+            state: Where the objects and the arm are.
+            attempts: How often to try anew; unlike seconds, it ends runs repeatably.
             seconds: Time allowed.
             rng: The only source of chance.
         """

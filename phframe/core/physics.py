@@ -20,7 +20,7 @@ OptionsT = TypeVar("OptionsT", bound=Options)
 
 @dataclass(frozen=True, slots=True)
 class Settle:
-    """When the world counts as at rest after a motion.
+    """When the world counts as at rest after a motion. What has spilled does not count.
 
     Attributes:
         speed: Every object's speed stays below this (m/s) ...
@@ -38,7 +38,7 @@ class Stop:
     """When to end a motion early. The arm then stands where it was.
 
     Attributes:
-        force: A contact force on the arm above this (N); None: never.
+        force: A force on the arm above this (N), as ``Motion.largest_force`` has it; None: never.
         bodies: The first contact of the arm with any of these objects.
         wall: Any contact of the arm with a wall.
     """
@@ -54,7 +54,8 @@ class Watch:
 
     Attributes:
         period: Seconds of simulated time between looks.
-        look: Called with the time since the motion began (s) and the world as it is then, moving or not.
+        look: Called with the time since the motion began (s) and the world as it is then, moving or not: at the
+            beginning, once in every period, settling included, and at the end.
     """
 
     period: float
@@ -80,7 +81,13 @@ class Physics(ABC, Generic[OptionsT]):
 
     @abstractmethod
     def restore(self, state: State) -> State:
-        """Make the world be ``state``, at rest, rebuilding it if need be; return what it really holds now."""
+        """Make the world be ``state``, at rest, rebuilding it if need be; return what it really holds now.
+
+        What ``state`` says is held is held.
+
+        Raises:
+            InputError: If ``state`` is not one of this scene and this arm.
+        """
 
     @abstractmethod
     def execute(
@@ -89,12 +96,16 @@ class Physics(ABC, Generic[OptionsT]):
         """Drive the arm along a trajectory from where the world is.
 
         Args:
-            trajectory: Of the kind named by ``executes``; it begins where the arm is. A parked arm goes to its beginning.
+            trajectory: Of the kind named by ``executes``; it begins where the arm is. A planar engine places a parked arm
+                at its beginning; an articulated one has it at home.
             settle: Wait for rest afterwards; None: do not.
             stop: When to end early, besides a stall at the trajectory's force limit.
             watch: Look on.
 
+        At a stall or a stop the arm stands still where it is, with no preload.
+
         Raises:
+            InputError: If the trajectory begins more than 2 mm or 0.01 rad from where the arm is.
             SimulationDivergedError: If the engine's numbers are no longer physical.
         """
 
@@ -134,5 +145,29 @@ class SupportsPropagation(Protocol[SnapshotT]):
     def snapshot(self) -> SnapshotT:
         """The world as it is now, moving or not."""
 
-    def propagate(self, snapshot: SnapshotT, twist: FloatArray, dt: float) -> tuple[SnapshotT, Motion]:
-        """Hold a fingertip twist ``(3,)`` (m/s, m/s, rad/s, shelf frame) for ``dt`` seconds, without settling; pure."""
+    def state_of(self, snapshot: SnapshotT) -> State:
+        """What a snapshot holds, its speeds aside."""
+
+    def propagate(
+        self,
+        snapshot: SnapshotT,
+        twist: FloatArray,
+        dt: float,
+        *,
+        opening: float | None = None,
+        stop: Stop | None = None,
+    ) -> tuple[SnapshotT, Motion]:
+        """Hold a fingertip twist ``(3,)`` (m/s, m/s, rad/s, shelf frame) for ``dt`` seconds, without settling; pure.
+
+        What ``execute`` and ``observe`` would go on from afterwards is undefined: ``restore`` first.
+
+        Args:
+            snapshot: Where to start.
+            twist: Of the fingertip.
+            dt: Seconds.
+            opening: Distance between the fingers (m); None: as it is.
+            stop: When to end early.
+
+        Raises:
+            ArmError: If the arm is parked.
+        """

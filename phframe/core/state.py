@@ -8,6 +8,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from phframe.core.errors import InputError
 from phframe.core.value import FloatArray, Floats, Value
 
 
@@ -27,12 +28,20 @@ class ArmState(Value):
     Attributes:
         gripper: Fingertip pose (x, y, yaw) ``(3,)`` in the shelf frame (m, rad): what every backend understands.
         opening: Distance between the fingers (m).
-        joints: Joint values ``(dof,)`` (rad or m) where the backend has joints, else None.
+        command: The distance they are told to have (m), less than ``opening`` while they squeeze something; a trajectory
+            goes on from it. None: the same as ``opening``.
+        joints: Joint values ``(dof,)`` (rad or m) where the backend has joints, else None. They count before ``gripper``.
     """
 
     gripper: Floats
     opening: float
+    command: float | None = None
     joints: Floats | None = None
+
+    @property
+    def commanded_opening(self) -> float:
+        """The distance the fingers are told to have (m)."""
+        return self.opening if self.command is None else self.command
 
     def __post_init__(self) -> None:
         self._freeze("gripper")
@@ -48,8 +57,11 @@ class State(Value):
         poses: ``(n, 7)`` in the shelf frame, in the order of the scene's objects: x y z (m), qw qx qy qz. An object
             that spilled keeps the last pose it was seen at.
         conditions: One per object.
-        held: Id of the object in the gripper, or None.
-        arm: Where the arm is; None: parked outside the shelf.
+        held: Id of the object in the gripper, or None. Held until it is seen to be lost.
+        arm: Where the arm is; None: parked outside the shelf, with nothing in the gripper.
+
+    Raises:
+        InputError: If the arrays disagree in length, or something is held by a parked arm.
     """
 
     poses: Floats
@@ -59,6 +71,12 @@ class State(Value):
 
     def __post_init__(self) -> None:
         self._freeze("poses")
+        if self.poses.shape != (len(self.conditions), 7):
+            raise InputError(
+                f"{len(self.conditions)} objects need poses of shape ({len(self.conditions)}, 7), not {self.poses.shape}"
+            )
+        if self.held is not None and self.arm is None:
+            raise InputError(f"{self.held!r} cannot be held by a parked arm")
 
     @property
     def positions(self) -> FloatArray:
@@ -71,7 +89,11 @@ class State(Value):
         return np.array([condition is not Condition.SPILLED for condition in self.conditions])
 
     def parked(self) -> State:
-        """The same world with the arm parked outside: what another arm or backend can start from."""
+        """The same world with the arm parked outside: what another arm or backend can start from.
+
+        Raises:
+            InputError: If something is held.
+        """
         return replace(self, arm=None)
 
     def displacement(self, other: State) -> FloatArray:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from phframe.core.errors import InputError
 from phframe.core.gripper_path import GripperPath, Phase, PhaseRule
 from phframe.core.value import FloatArray, Floats, Value
 
@@ -19,7 +21,10 @@ class GripperTrajectory(Value):
         poses: ``(k, 3)`` x, y (m), yaw (rad) in the shelf frame.
         openings: ``(k,)`` distance between the fingers (m).
         phases: One per leg, ``k - 1``.
-        force_limit: Contact force (N) above which the arm stalls.
+        force_limit: Net contact force (N) above which the arm stalls.
+
+    Raises:
+        InputError: If the lengths disagree, a number is not finite or times fall.
     """
 
     times: Floats
@@ -30,6 +35,16 @@ class GripperTrajectory(Value):
 
     def __post_init__(self) -> None:
         self._freeze("times", "poses", "openings")
+        samples = len(self.phases) + 1
+        if self.times.shape != (samples,) or self.poses.shape != (samples, 3) or self.openings.shape != (samples,):
+            raise InputError(
+                f"a trajectory of {samples - 1} legs needs {samples} times, poses (x, y, yaw) and openings"
+            )
+        numbers = (self.times, self.poses, self.openings, np.asarray(self.force_limit))
+        if not all(np.isfinite(array).all() for array in numbers):
+            raise InputError("a trajectory holds values that are not finite numbers")
+        if samples > 1 and (np.diff(self.times) < 0.0).any():
+            raise InputError("a trajectory's times must not fall")
 
     @property
     def duration(self) -> float:
@@ -49,31 +64,52 @@ class GripperTrajectory(Value):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointTrajectory(Value):
-    """What one real arm does: timed joints, and the gripper trajectory they follow.
+    """What one real arm does: joints at the times of the gripper trajectory that they produce.
 
     Attributes:
-        times: ``(k,)`` seconds from 0, not decreasing.
+        gripper: The fingertip's poses seen from above at the same ``k`` times; carries openings, phases and force limit.
         positions: ``(k, dof)`` joint values (rad or m).
-        velocities: ``(k, dof)`` joint speeds (rad/s or m/s).
-        openings: ``(k,)`` distance between the fingers (m).
-        phases: One per leg, ``k - 1``.
-        gripper: Where the fingertip is meant to be; carries the force limit.
+        velocities: ``(k, dof)`` joint speeds (rad/s or m/s); 0 where the path has a corner.
+
+    Raises:
+        InputError: If the lengths disagree or a number is not finite.
     """
 
-    times: Floats
+    gripper: GripperTrajectory
     positions: Floats
     velocities: Floats
-    openings: Floats
-    phases: tuple[Phase, ...]
-    gripper: GripperTrajectory
 
     def __post_init__(self) -> None:
-        self._freeze("times", "positions", "velocities", "openings")
+        self._freeze("positions", "velocities")
+        samples = len(self.gripper.times)
+        if self.positions.ndim != 2 or len(self.positions) != samples or self.velocities.shape != self.positions.shape:
+            raise InputError(
+                f"a joint trajectory of {samples} samples has positions {self.positions.shape} and velocities {self.velocities.shape}"
+            )
+        if not (np.isfinite(self.positions).all() and np.isfinite(self.velocities).all()):
+            raise InputError("a joint trajectory holds values that are not finite numbers")
+
+    def sample(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Joint values and speeds ``(m, dof)`` at times ``(m,)`` (s): cubic between samples, held at the ends."""
+        t = np.clip(np.asarray(times, dtype=np.float64), self.times[0], self.times[-1])
+        leg = np.clip(np.searchsorted(self.times, t, side="right") - 1, 0, len(self.times) - 2)
+        span = np.diff(self.times)[leg, None]
+        u = (t - self.times[leg])[:, None] / np.where(span > 0.0, span, 1.0)
+        p0, p1 = self.positions[leg], self.positions[leg + 1]
+        m0, m1 = self.velocities[leg] * span, self.velocities[leg + 1] * span
+        values = p0 + u * (m0 + u * (3.0 * (p1 - p0) - 2.0 * m0 - m1 + u * (2.0 * (p0 - p1) + m0 + m1)))
+        slope = m0 + u * (6.0 * (p1 - p0) - 4.0 * m0 - 2.0 * m1 + u * (6.0 * (p0 - p1) + 3.0 * (m0 + m1)))
+        return values, slope / np.where(span > 0.0, span, 1.0)
+
+    @property
+    def times(self) -> FloatArray:
+        """Seconds from 0 ``(k,)``."""
+        return self.gripper.times
 
     @property
     def duration(self) -> float:
         """Seconds from the first sample to the last."""
-        return float(self.times[-1])
+        return self.gripper.duration
 
     @property
     def force_limit(self) -> float:
@@ -90,7 +126,7 @@ def time_path(path: GripperPath, opening: float, force_limit: float) -> GripperT
     Args:
         path: The path.
         opening: Distance between the fingers (m) at the start.
-        force_limit: Contact force (N) above which the arm stalls.
+        force_limit: Net contact force (N) above which the arm stalls.
     """
     openings = [opening, *(path.rules[phase].opening for phase in path.phases)]
     durations = [

@@ -1,0 +1,94 @@
+# Every target sets up what it needs, in .venv: Python 3.11 or newer and make are enough.
+# Written for GNU make 3.81 and newer and a POSIX shell.
+
+# The extras (see pyproject.toml) that each job is set up with; `make test TEST_EXTRAS=dev` tests without any.
+TEST_EXTRAS ?= dev,rerun
+DEMO_EXTRAS ?= rerun
+SCENE ?= vieira/basic
+PYTEST_FLAGS ?= --numprocesses=auto --benchmark-disable
+
+override VENV := .venv
+override PIP := $(VENV)/bin/python -m pip --disable-pip-version-check
+comma := ,
+stamp = $(VENV)/.ready-$(subst $(comma),-,$(1))
+
+# Settings of the shell that would mix other packages into .venv, or install elsewhere.
+unexport PYTHONPATH PYTHONHOME PIP_USER PIP_TARGET PIP_PREFIX PIP_REQUIRE_VIRTUALENV
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.PHONY: help demo test lint bench clean interpreter FORCE
+
+help: ## say what can be made (the default)
+	@echo 'usage: make TARGET [PYTHON=/path/to/python3.11]'
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  \1	\2/p' Makefile
+
+demo: $(call stamp,$(DEMO_EXTRAS)) ## solve a shelf scene and record it for the Rerun viewer
+	@$(VENV)/bin/phframe solve $(SCENE) --rerun
+
+test: $(call stamp,$(TEST_EXTRAS)) ## run the tests
+	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS)
+
+lint: $(call stamp,$(TEST_EXTRAS)) ## check style, types, layers and spelling
+	@$(VENV)/bin/ruff check
+	@$(VENV)/bin/ruff format --check
+	@$(VENV)/bin/mypy
+	@$(VENV)/bin/lint-imports
+	@$(VENV)/bin/codespell
+
+bench: $(call stamp,$(TEST_EXTRAS)) ## measure planning against bare loops
+	@$(VENV)/bin/python -m phframe.bench
+
+clean: ## remove .venv and all caches, keep runs/
+	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks
+	find phframe tests -name __pycache__ -prune -exec rm -rf {} +
+
+# --- set-up ---
+
+# A stamp is made last, so an interrupted set-up leaves none; .installing then tells that .venv must be made anew.
+# So must one that was moved here from elsewhere, or whose interpreter is gone.
+usable := $(shell test ! -e $(VENV)/.installing && $(VENV)/bin/python -c '' 2>/dev/null && cat $(VENV)/.home 2>/dev/null)
+ifneq ($(usable),$(CURDIR))
+    remake := FORCE
+endif
+
+$(VENV)/.ready-%: $(VENV)/.home pyproject.toml constraints.txt
+	@echo 'Installing phframe[$(subst -,$(comma),$*)] into $(VENV): up to 1.5 GB, a minute or two the first time.'
+	@touch $(VENV)/.installing
+	@$(PIP) install $(if $(CI),--quiet) --constraint constraints.txt --editable '.[$(subst -,$(comma),$*)]'
+	@rm -f $(VENV)/.installing
+	@touch $@
+
+$(VENV)/.home: $(remake)
+	@$(find_python); \
+	echo "Making $(VENV) with $$python ($$("$$python" --version))."; \
+	rm -rf $(VENV) && "$$python" -m venv $(VENV) && pwd -P > $@
+
+interpreter: # the interpreter that a new .venv would be made with
+	@$(find_python); echo "$$python"
+
+# Sets $python to the first candidate that really runs, is new enough and can make virtual environments: $PYTHON, else
+# a Python 3.11, else a newer one. (A pyenv shim may exist and yet fail; Debian ships ensurepip separately.)
+define find_python
+fits() { \
+    "$$1" -c "import ensurepip, sys, venv; sys.exit(not sys.version_info[:2] $$2 (3, 11))" </dev/null >/dev/null 2>&1; \
+}; \
+versions="$${PYENV_ROOT:-$$HOME/.pyenv}/versions"; \
+python=; \
+if test -n "$$PYTHON"; then \
+    if fits "$$PYTHON" '>='; then python="$$PYTHON"; else \
+        echo "PYTHON=$$PYTHON does not run, is older than 3.11 or lacks venv or ensurepip: trying others." >&2; \
+    fi; \
+fi; \
+for order in '==' '>'; do \
+    for candidate in python3.11 python3 "$$versions"/3.11*/bin/python \
+        python3.12 python3.13 python3.14 "$$versions"/3.1[2-9]*/bin/python; do \
+        if test -z "$$python" && fits "$$candidate" "$$order"; then python="$$candidate"; fi; \
+    done; \
+done; \
+if test -z "$$python"; then \
+    echo 'error: no Python 3.11 or newer with venv and ensurepip found: install one (Debian: python3.11 and' \
+        'python3.11-venv), or name one, as in: make test PYTHON=/path/to/python3.11' >&2; \
+    exit 1; \
+fi
+endef

@@ -1,0 +1,1 @@
+"""Arms: one file or folder per robot, each an ``ArmModel``."""

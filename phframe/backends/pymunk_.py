@@ -1,0 +1,100 @@
+"""Physics in the plane, seen from above, with pymunk: the fast default.
+
+Objects slide on the board with Coulomb friction and do not topple. The arm is a body that a drive of limited force
+draws along its trajectory, so that what cannot be moved stalls it and nothing is squeezed through a wall. An object
+whose centre leaves the board at the mouth is spilled.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from phframe.backends.pymunk_drive import Drive
+from phframe.backends.pymunk_gripper import hold, place_arm, set_opening
+from phframe.backends.pymunk_state import read_state
+from phframe.backends.pymunk_world import Surfaces, World, build_world
+from phframe.core import GripperTrajectory, InputError, Motion, Options, Physics, Settle, State, Stop, Trajectory, Watch
+
+
+class PymunkOptions(Options):
+    """Options of the pymunk backend.
+
+    Attributes:
+        step: Time step (s).
+        iterations: Solver iterations per step.
+        object_friction: Coulomb coefficient between objects.
+        arm_friction: Coulomb coefficient between the arm and objects.
+        arm_mass: Inertia of the arm as the world feels it (kg).
+        stall_lag: How far the arm may fall behind its trajectory before it counts as stalled (m).
+    """
+
+    step: Annotated[float, Field(gt=0.0, le=0.02)] = 1.0 / 240.0
+    iterations: Annotated[int, Field(ge=1, le=200)] = 10
+    object_friction: Annotated[float, Field(gt=0.0, le=2.0)] = 0.2
+    arm_friction: Annotated[float, Field(ge=0.0, le=2.0)] = 0.3
+    arm_mass: Annotated[float, Field(gt=0.0, le=100.0)] = 4.0
+    stall_lag: Annotated[float, Field(gt=0.0, le=0.1)] = 0.005
+
+
+class PymunkPhysics(Physics[PymunkOptions]):
+    """pymunk 7 behind the Physics interface.
+
+    Every ``restore`` builds a new space (under a millisecond): only that keeps ``simulate`` pure, since pymunk's
+    contact cache and broad phase remember what ran before.
+    """
+
+    options_type = PymunkOptions
+    executes = GripperTrajectory
+    _world: World | None = None
+
+    def restore(self, state: State) -> State:
+        """Build a new space that holds ``state``."""
+        if state.poses.shape[0] != len(self.scene.objects):
+            raise InputError(
+                f"a state of {len(state.poses)} objects is not one of {self.scene.name!r}, which has {len(self.scene.objects)}"
+            )
+        if not np.isfinite(state.poses).all():
+            raise InputError("a state holds poses that are not finite numbers")
+        self._world = world = self._build(state)
+        if state.arm is not None:
+            place_arm(world, state.arm.gripper)
+            set_opening(world, state.arm.opening)
+            world.command = state.arm.commanded_opening
+        if state.held is not None and state.held in world.items:
+            hold(world, world.items[state.held])
+        return read_state(world)
+
+    def _build(self, state: State) -> World:
+        o = self.options
+        surfaces = Surfaces(o.object_friction, o.arm_friction)
+        return build_world(
+            self.scene, self.arm.shape, state, surfaces=surfaces, iterations=o.iterations, arm_mass=o.arm_mass
+        )
+
+    def execute(
+        self, trajectory: Trajectory, *, settle: Settle | None, stop: Stop | None = None, watch: Watch | None = None
+    ) -> Motion:
+        """Drive the gripper along a trajectory."""
+        gripper = trajectory if isinstance(trajectory, GripperTrajectory) else trajectory.gripper
+        drive = Drive(
+            self._current, gripper, step=self.options.step, stall_lag=self.options.stall_lag, stop=stop, watch=watch
+        )
+        return drive.run(settle)
+
+    def observe(self) -> State:
+        """The world as it is now."""
+        return read_state(self._current)
+
+    def close(self) -> None:
+        """Drop the space."""
+        self._world = None
+
+    @property
+    def _current(self) -> World:
+        if self._world is None:
+            self.restore(self.scene.initial_state())
+        assert self._world is not None
+        return self._world

@@ -1,0 +1,205 @@
+"""A shelf seen from above as a pymunk space: walls, objects with friction on the board, an arm on a force-limited drive."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+import pymunk
+
+from phframe.core import ArmShape, FloatArray, Outline, Scene, SceneObject, State, coulomb_with_board, yaw_of
+
+GRAVITY = 9.81
+WALL_THICKNESS = 0.1
+ARM, OBJECT, WALL = 1, 2, 3
+"""Collision types."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surfaces:
+    """Coulomb coefficients between bodies; pymunk multiplies those of the two shapes that touch.
+
+    Attributes:
+        objects: Object against object.
+        arm: Arm against object.
+    """
+
+    objects: float
+    arm: float
+
+    @property
+    def object_factor(self) -> float:
+        """An object's share in every product."""
+        return math.sqrt(self.objects)
+
+    def partner_factor(self, coefficient: float) -> float:
+        """The share of what touches an object with a coefficient."""
+        return coefficient / self.object_factor if self.object_factor > 0.0 else 0.0
+
+
+@dataclass(slots=True)
+class Item:
+    """An object on the board: its body and the joints that stand for friction with the board."""
+
+    name: str
+    body: pymunk.Body
+    shape: pymunk.Shape
+    radius: float
+    floor: tuple[pymunk.Constraint, pymunk.Constraint]
+
+
+@dataclass(slots=True)
+class Arm:
+    """The arm: a body that a force-limited drive draws along with a carrier, which goes exactly where it is told.
+
+    Attributes:
+        body: Origin at the fingertip.
+        carrier: Kinematic.
+        drive: Joins the two; its impulse is what the world pushes back with.
+        parts: Its shapes, and the outlines they have when the fingers are closed.
+    """
+
+    body: pymunk.Body
+    carrier: pymunk.Body
+    drive: pymunk.PivotJoint
+    parts: tuple[tuple[pymunk.Poly, Outline], ...]
+
+    @property
+    def fingers(self) -> tuple[tuple[pymunk.Poly, Outline], ...]:
+        """The parts that move with the opening."""
+        return tuple(part for part in self.parts if part[1].side)
+
+
+@dataclass(slots=True)
+class World:
+    """Everything in one space, and what a State says of it besides poses.
+
+    Attributes:
+        scene: What is modelled.
+        space: The pymunk space.
+        items: Objects on the board or in the hand, by id.
+        arm: The arm.
+        spilled: Last pose ``(7,)`` of what has left the board, by id.
+        names: What each shape is called, of objects, walls and parts of the arm.
+        min_opening: Distance between the fingers when closed (m).
+        opening: Distance between the fingers now (m).
+        command: Distance they are told to have (m).
+        held: Id of the object in the hand.
+        parked: The arm is out of the way and has not been placed yet.
+        at_rest: Nothing moves.
+        tick: Steps since the motion began.
+        touched: Arm contacts since the motion began: step, part of the arm, what it met, whether that is a wall.
+        grip: Joints that hold the object in the hand.
+    """
+
+    scene: Scene
+    space: pymunk.Space
+    items: dict[str, Item]
+    arm: Arm
+    spilled: dict[str, FloatArray]
+    names: dict[pymunk.Shape, str]
+    min_opening: float
+    opening: float
+    command: float
+    held: str | None = None
+    parked: bool = True
+    at_rest: bool = True
+    tick: int = 0
+    touched: list[tuple[int, str, str, bool]] = field(default_factory=list)
+    grip: tuple[pymunk.Constraint, ...] = ()
+
+
+def build_world(
+    scene: Scene, shape: ArmShape, state: State, *, surfaces: Surfaces, iterations: int, arm_mass: float
+) -> World:
+    """A new space that holds ``state``; always new, since a used one remembers what ran in it."""
+    space = pymunk.Space()
+    space.iterations = iterations
+    space.collision_slop = 1e-4
+    walls = _add_walls(space, scene, surfaces)
+    spilled = {scene.ids[row]: state.poses[row] for row in np.flatnonzero(~state.on_board)}
+    items = {
+        item.id: _add_item(space, scene, item, state.poses[row], surfaces)
+        for row, item in enumerate(scene.objects)
+        if item.id not in spilled
+    }
+    arm = _add_arm(space, shape, surfaces, arm_mass)
+    world = World(
+        scene,
+        space,
+        items,
+        arm,
+        spilled,
+        _names(walls, items, arm),
+        shape.min_opening,
+        shape.min_opening,
+        shape.min_opening,
+    )
+    for kind in (OBJECT, WALL):
+        space.on_collision(ARM, kind, begin=note_contact, data=world)
+    return world
+
+
+def _names(walls: dict[pymunk.Shape, str], items: dict[str, Item], arm: Arm) -> dict[pymunk.Shape, str]:
+    objects = {item.shape: name for name, item in items.items()}
+    return {**walls, **objects, **{shape: outline.part for shape, outline in arm.parts}}
+
+
+def note_contact(arbiter: pymunk.Arbiter, space: pymunk.Space, world: World) -> None:
+    """Write down that the arm touches something; the arm's shape comes first."""
+    part, other = arbiter.shapes
+    world.touched.append((world.tick, world.names[part], world.names[other], other.collision_type == WALL))
+
+
+def _add_walls(space: pymunk.Space, scene: Scene, surfaces: Surfaces) -> dict[pymunk.Shape, str]:
+    depth, width, t = scene.shelf.depth, scene.shelf.width, WALL_THICKNESS
+    corners = {
+        "south wall": (0.0, -t, depth, 0.0),
+        "north wall": (0.0, width, depth, width + t),
+        "back wall": (depth, -t, depth + t, width + t),
+    }
+    walls: dict[pymunk.Shape, str] = {}
+    for name, (x0, y0, x1, y1) in corners.items():
+        wall = pymunk.Poly(space.static_body, [(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+        wall.friction = surfaces.partner_factor(scene.shelf.wall_friction)
+        wall.collision_type = WALL
+        space.add(wall)
+        walls[wall] = name
+    return walls
+
+
+def _add_item(space: pymunk.Space, scene: Scene, item: SceneObject, pose: FloatArray, surfaces: Surfaces) -> Item:
+    radius, mass = item.shape.radius, item.mass
+    body = pymunk.Body(mass, mass * radius * radius / 2.0)
+    body.position = float(pose[0]), float(pose[1])
+    body.angle = yaw_of(pose)
+    circle = pymunk.Circle(body, radius)
+    circle.friction = surfaces.object_factor
+    circle.collision_type = OBJECT
+    weight = coulomb_with_board(scene, item) * mass * GRAVITY
+    slide = pymunk.PivotJoint(space.static_body, body, (0.0, 0.0), (0.0, 0.0))
+    # A disc that presses evenly on the board resists turning with 2/3 mu m g r.
+    spin = pymunk.GearJoint(space.static_body, body, 0.0, 1.0)
+    for joint, limit in ((slide, weight), (spin, weight * radius * 2.0 / 3.0)):
+        joint.max_bias = 0.0
+        joint.max_force = limit
+    space.add(body, circle, slide, spin)
+    return Item(item.id, body, circle, radius, (slide, spin))
+
+
+def _add_arm(space: pymunk.Space, shape: ArmShape, surfaces: Surfaces, mass: float) -> Arm:
+    body = pymunk.Body(mass, mass)
+    carrier = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
+    drive = pymunk.PivotJoint(carrier, body, (0.0, 0.0), (0.0, 0.0))
+    align = pymunk.GearJoint(carrier, body, 0.0, 1.0)
+    space.add(body, carrier, drive, align)
+    parts = []
+    for outline in shape.closed:
+        polygon = pymunk.Poly(body, [(float(x), float(y)) for x, y in outline.vertices])
+        polygon.friction = surfaces.partner_factor(surfaces.arm)
+        polygon.collision_type = ARM
+        polygon.filter = pymunk.ShapeFilter(group=1)
+        space.add(polygon)
+        parts.append((polygon, outline))
+    return Arm(body, carrier, drive, tuple(parts))

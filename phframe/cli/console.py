@@ -1,0 +1,61 @@
+"""Where the commands write to: results to standard output, everything else to standard error."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING, TextIO
+
+if TYPE_CHECKING:
+    from rich.console import Console, RenderableType
+
+UNLIMITED = 10_000
+"""Columns where no terminal sets a limit: files and pipes get whole lines."""
+
+
+def note(text: str) -> None:
+    """A line for people, beside the result."""
+    _write(sys.stderr, text)
+
+
+def emit(text: str) -> None:
+    """The result, as text."""
+    _write(sys.stdout, text)
+
+
+def show(what: RenderableType) -> None:
+    """The result, as a table or another picture of it."""
+    from rich.console import Console
+
+    console = Console(file=sys.stdout, highlight=False, width=None if sys.stdout.isatty() else _columns())
+    with console.capture() as capture:
+        console.print(what)
+    emit("\n".join(line.rstrip() for line in capture.get().rstrip("\n").split("\n")))
+
+
+def error_console() -> Console:
+    """Standard error, for progress."""
+    from rich.console import Console
+
+    return Console(file=sys.stderr, highlight=False)
+
+
+def _columns() -> int:
+    given = os.environ.get("COLUMNS", "")
+    return int(given) if given.isdigit() and int(given) > 0 else UNLIMITED
+
+
+def _write(stream: TextIO, text: str) -> None:
+    """A line; where nobody reads on (``phframe scenes | head -1``) it is dropped, and so is what follows."""
+    try:
+        encoding = stream.encoding or "utf-8"
+        stream.write(text.encode(encoding, errors="replace").decode(encoding) + "\n")
+        stream.flush()
+    except BrokenPipeError:
+        leave(stream)
+
+
+def leave(stream: TextIO) -> None:
+    """Let what is still to be written to a closed pipe vanish."""
+    with open(os.devnull, "wb") as nowhere:  # noqa: PTH123 - os.devnull is no path on every system
+        os.dup2(nowhere.fileno(), stream.fileno())

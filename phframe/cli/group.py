@@ -1,0 +1,64 @@
+"""The top of the command tree: one line per error, and the commands that plugins add."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+from phframe.cli import plugin_commands
+from phframe.cli.console import note
+from phframe.cli.exit_codes import ExitCode
+from phframe.cli.failures import report
+
+
+class CommandGroup(TyperGroup):
+    """The commands of phframe and of its plugins.
+
+    A plugin's command is imported only when it is run; the help shows its registered summary.
+    """
+
+    def main(self, args: Sequence[str] | None = None, *rest: Any, standalone_mode: bool = True, **extra: Any) -> Any:
+        """Run a command and, standing alone, end the process with its exit code."""
+        if not standalone_mode:
+            return super().main(args, *rest, standalone_mode=False, **extra)
+        try:
+            result = super().main(args, *rest, standalone_mode=False, **extra)
+        except (KeyboardInterrupt, typer.Abort):
+            result = ExitCode.INTERRUPTED
+        except Exception as error:  # noqa: BLE001 - nobody is to see a traceback
+            result = report(error)
+        sys.exit(result if isinstance(result, int) else ExitCode.SUCCESS)
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run a command; say so if it was interrupted."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            note("interrupted")
+            raise
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """The names of all commands: phframe's own, then those of plugins."""
+        own = super().list_commands(ctx)
+        return [*own, *plugin_commands.names(own)]
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """The command of a name; of a plugin's, no more than its summary."""
+        return super().get_command(ctx, cmd_name) or plugin_commands.summary(cmd_name)
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
+        """The command that is to be run, a plugin's too.
+
+        Raises:
+            UnknownNameError: If there is no such command.
+        """
+        name = args[0]
+        if name in self.commands or name.startswith("-"):
+            return super().resolve_command(ctx, args)
+        if ctx.resilient_parsing and name not in self.list_commands(ctx):
+            return None, None, args[1:]
+        return name, plugin_commands.load_command(name, self.commands), args[1:]

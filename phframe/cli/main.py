@@ -1,0 +1,55 @@
+"""The command ``phframe``. Importing this imports nothing but typer, so that ``--help`` is there at once."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from phframe.cli import listings
+from phframe.cli.console import emit
+from phframe.cli.exit_codes import ExitCode
+from phframe.cli.group import CommandGroup
+from phframe.cli.solve import solve
+
+app = typer.Typer(
+    cls=CommandGroup,
+    name="phframe",
+    help="Retrieve an object from a crowded shelf by pushing, guided by persistent homology.",
+    epilog="Example: phframe solve vieira/basic",
+    invoke_without_command=True,
+    pretty_exceptions_enable=False,
+)
+app.command("solve", epilog="Example: phframe solve papallas/s01 --planner ooa --option margin=0.02 --no-rerun --json")(
+    solve
+)
+listings.add_to(app)
+
+
+def _print_version(wanted: bool) -> None:
+    if not wanted:
+        return
+    from importlib import metadata
+
+    try:
+        emit(f"phframe {metadata.version('phframe')}")
+    except metadata.PackageNotFoundError:
+        emit("phframe, run from its source tree without being installed")
+    raise typer.Exit
+
+
+@app.callback()
+def _top(
+    context: typer.Context,
+    version: Annotated[
+        bool, typer.Option("--version", help="Show the version and exit.", callback=_print_version, is_eager=True)
+    ] = False,
+) -> None:
+    if context.invoked_subcommand is None:
+        emit(context.get_help())
+        raise typer.Exit(ExitCode.BAD_INPUT)
+
+
+def main() -> None:
+    """Entry point of the command; ends the process."""
+    app(prog_name="phframe")

@@ -1,0 +1,1 @@
+"""The planners: one file each, made of what is in pushing/."""

@@ -1,0 +1,26 @@
+"""What phframe settles where the paper leaves something open, by name."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+
+class Choice(StrEnum):
+    """Phframe's settlements of what the paper leaves open, counted in every plan."""
+
+    FALLBACK_RADIUS = "fallback radius"
+    """No radius is usable, so the threshold h itself is taken."""
+    SWEEP_CLAMPED = "sweep clamped to the wall"
+    """The arm's true outline would meet a wall before its leading side reaches the corridor's edge."""
+    LANE_CLAMPED = "lane clamped to the wall"
+    """The lane beside the rectangle is too narrow for the arm, which goes in as near to it as fits."""
+    LANE_SHIFTED = "lane shifted past the target"
+    """The fingertip would stop short of everything, so it passes the target by instead."""
+    TILTED = "arm tilted"
+    """At the corridor's angle the walls keep the arm from clearing; at another angle they do not."""
+    SPANS_CORRIDOR = "sweep from the nearer wall"
+    """The rectangle spans the corridor."""
+    OTHER_DIRECTION = "other direction"
+    """Nothing fits in the paper's direction."""
+    GRASP_BLOCKED = "grasp blocked"
+    """The corridor is empty, but what stands beside the target keeps the fingers out; it joined the members."""

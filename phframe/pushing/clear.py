@@ -1,0 +1,116 @@
+"""The loop of PHIA and its simpler relatives (Algorithm 4): push the closest component until the target is free."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from phframe.core import Action, Decision, FloatArray, Infeasible, Plan, State, Status, Task, Transition
+from phframe.pushing.choice import Choice
+from phframe.pushing.options import PushingOptions
+from phframe.pushing.reach import grasp_action
+from phframe.pushing.situation import Pushing, Situation
+
+UNCHANGED = 1e-3
+"""No object moved more than this (m): the action failed."""
+
+ChooseRadius = Callable[[FloatArray, float], tuple[float, tuple[Choice, ...]]]
+"""From the finite deaths ``(k,)`` (m) and the threshold h (m) to the radius (m) and the settlements it needed."""
+
+
+Tried = tuple[Decision, Action, Transition]
+
+
+class Clearing:
+    """One run of the loop for one task.
+
+    Args:
+        task: The task.
+        options: The planner's.
+        choose_radius: What tells one planner of this family from another.
+    """
+
+    def __init__(self, task: Task, options: PushingOptions, choose_radius: ChooseRadius) -> None:
+        self._task, self._options, self._choose_radius = task, options, choose_radius
+        self._pushing = Pushing(task, options)
+        self._state = task.start
+        self._actions: list[Action] = []
+        self._expected: list[State] = []
+        self._decisions: list[Decision] = []
+
+    def run(self) -> Plan:
+        """Push until the corridor is empty, then grasp."""
+        also: tuple[str, ...] = ()
+        rounds_for_grasp = 1
+        while True:
+            situation = self._pushing.situation(self._state, also)
+            if isinstance(situation, Infeasible):
+                return self._failed(situation.reason)
+            if len(situation.members):
+                if failure := self._push(situation, blocked=bool(also)):
+                    return self._failed(failure)
+                also = ()
+                continue
+            grasp = grasp_action(self._task.scene, self._state, situation.corridor, self._task.arm, self._options)
+            if isinstance(grasp, Action):
+                return self._grasp(situation, grasp)
+            if not grasp.blockers or not rounds_for_grasp:
+                return self._failed(grasp.reason)
+            also, rounds_for_grasp = grasp.blockers, rounds_for_grasp - 1
+
+    def _push(self, situation: Situation, *, blocked: bool) -> str | None:
+        """Carry out one push; why not, where that fails."""
+        if len(self._actions) >= self._options.max_actions:
+            return f"the corridor is not empty after {len(self._actions)} actions"
+        diagram = self._pushing.diagram(situation)
+        radius, choices = self._choose_radius(diagram.finite_deaths, self._pushing.threshold)
+        choices = (*choices, Choice.GRASP_BLOCKED) if blocked else choices
+        tried = self._try_all(self._pushing.pushes(situation, diagram, radius, choices))
+        if tried is None:
+            return "no sweep fits beside the closest component"
+        decision, action, transition = tried
+        if (transition.state.displacement(self._state) <= UNCHANGED).all():
+            return f"nothing moved: {action.name}"
+        self._keep(decision, action, transition)
+        return None
+
+    def _try_all(self, proposals: Iterator[tuple[Decision, Action]]) -> Tried | None:
+        """Simulate the proposals in turn; the first that neither stalls nor spills, else the least bad of them."""
+        best: tuple[int, Tried] | None = None
+        for decision, action in proposals:
+            transition = self._task.apply(self._state, action)
+            harm = self._harm(transition)
+            if best is None or harm < best[0]:
+                best = harm, (decision, action, transition)
+            if harm == 0:
+                break
+        return best[1] if best else None
+
+    def _harm(self, transition: Transition) -> int:
+        """0 where a push did what it should; more for a spill, a stall and a push that moved nothing."""
+        spilled = int((self._state.on_board & ~transition.state.on_board).sum())
+        unchanged = bool((transition.state.displacement(self._state) <= UNCHANGED).all())
+        return spilled + 100 * (not transition.motion.complete) + 10000 * unchanged
+
+    def _grasp(self, situation: Situation, grasp: Action) -> Plan:
+        """The last action: reach, grasp, withdraw."""
+        transition = self._task.apply(self._state, grasp)
+        self._keep(Decision(corridor=situation.corridor), grasp, transition)
+        if transition.state.held == self._task.scene.target:
+            return self._plan(Status.RETRIEVED, "")
+        if transition.motion.complete:
+            return self._plan(Status.REACHED, "the fingers closed without holding the target")
+        return self._plan(Status.CLEARED, "the reach stalled")
+
+    def _keep(self, decision: Decision, action: Action, transition: Transition) -> None:
+        parent = len(self._decisions) - 1 if self._decisions else None
+        self._actions.append(action)
+        self._expected.append(transition.state)
+        self._decisions.append(replace(decision, parent=parent))
+        self._state = transition.state
+
+    def _failed(self, reason: str) -> Plan:
+        return self._plan(Status.FAILED, reason)
+
+    def _plan(self, status: Status, reason: str) -> Plan:
+        return Plan(status, reason, tuple(self._actions), tuple(self._expected), tuple(self._decisions))

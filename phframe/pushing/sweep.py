@@ -1,0 +1,85 @@
+"""The pushing action (Algorithm 3), and what to do where the paper's sweep does not fit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from phframe.core import ArmShape, Corridor, FloatArray, Shelf
+from phframe.pushing.choice import Choice
+from phframe.pushing.grouping import bounding_rectangle
+from phframe.pushing.tilted_sweep import Choices, Component, Direction, Push, TiltedSweep
+
+TILTS = tuple(math.radians(degrees) for degrees in (0.0, 10.0, -10.0, 20.0, -20.0, 30.0, -30.0))
+"""Of the arm against the corridor, tried in this order (rad)."""
+
+
+class SweepGeometry:
+    """Sweeps for one component in one corridor, by one arm.
+
+    Args:
+        corridor: The corridor.
+        members: Centres ``(k, 2)`` of the component in the corridor frame (m).
+        radius: The largest radius among them (m).
+        target_radius: Of the target (m).
+        shelf: The shelf.
+        arm: Of which the closed outlines count.
+    """
+
+    def __init__(
+        self, corridor: Corridor, members: FloatArray, radius: float, target_radius: float, shelf: Shelf, arm: ArmShape
+    ) -> None:
+        self._corridor, self._shelf, self._outlines = corridor, shelf, arm.closed
+        self._radius, self._target_radius = radius, target_radius
+        self.rectangle = bounding_rectangle(members)
+        self._component = Component(members, self.rectangle, radius)
+
+    def pushes(self) -> Iterator[Push]:
+        """The sweeps that fit, best first.
+
+        Those that clear come before those that do not, the paper's direction before the other, less tilt before more.
+        """
+        direction, choices = self._direction()
+        other: Direction = -1 if direction == 1 else 1
+        not_clearing: list[Push] = []
+        for way, settled in ((direction, choices), (other, (*choices, Choice.OTHER_DIRECTION))):
+            for push in self._tilted(way, settled):
+                if push.clears:
+                    yield push
+                    break
+                not_clearing.append(push)
+        yield from not_clearing
+
+    def _tilted(self, direction: Direction, choices: Choices) -> Iterator[Push]:
+        for tilt in TILTS:
+            settled = (*choices, Choice.TILTED) if tilt else choices
+            sweep = TiltedSweep(
+                self._corridor,
+                self._component,
+                self._shelf,
+                self._outlines,
+                self._target_radius,
+                direction=direction,
+                tilt=tilt,
+            )
+            push = sweep.push(settled)
+            if push is not None:
+                yield push
+
+    def _direction(self) -> tuple[Direction, Choices]:
+        """The paper's: towards the side of the corridor's centre line on which the rectangle lies."""
+        corridor, rectangle = self._corridor, self.rectangle
+        reach = corridor.half_width - self._radius
+        if rectangle.lower[1] <= corridor.axis - reach and rectangle.upper[1] >= corridor.axis + reach:
+            return self._away_from_nearer_wall(), (Choice.SPANS_CORRIDOR,)
+        offset = float(rectangle.center[1]) - corridor.axis
+        if offset == 0.0:
+            middle = corridor.to_local(np.array([self._shelf.depth / 2.0, self._shelf.width / 2.0]))
+            return (-1 if rectangle.center[1] <= middle[1] else 1), ()
+        return (1 if offset > 0.0 else -1), ()
+
+    def _away_from_nearer_wall(self) -> Direction:
+        center = self._corridor.to_shelf(self.rectangle.center)
+        return 1 if center[1] <= self._shelf.width / 2.0 else -1

@@ -1,0 +1,87 @@
+"""The objects in 3D and from the top: logged once as shapes, then only moved and coloured."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import rerun as rr
+
+from phframe.core import Condition, Scene, State
+from phframe.recorders import palette
+from phframe.recorders.frames import Frames, changes, quaternions_xyzw
+from phframe.recorders.stream import Stream
+
+DISCS = "top/objects"
+RINGS = "top/marks"
+RING_GAP = 0.0035
+
+
+def log_objects(stream: Stream, scene: Scene) -> None:
+    """The shapes of all objects, at the origin of their own frame."""
+    for item in scene.objects:
+        shape = item.shape
+        solid = rr.Cylinders3D(lengths=[shape.height], radii=[shape.radius], fill_mode="solid")
+        stream.keep(_entity(item.id), solid)
+    discs = rr.Points2D.from_fields(radii=scene.radii, labels=short_names(scene), show_labels=True, draw_order=10.0)
+    stream.keep(DISCS, discs)
+    stream.keep(RINGS, rr.Ellipses2D.from_fields(line_radii=[-1.2], draw_order=9.0))
+
+
+def log_motion(stream: Stream, scene: Scene, frames: Frames, action: int) -> None:
+    """Where all objects are in every frame."""
+    for index, item in enumerate(scene.objects):
+        moving = changes(frames.poses[:, index])
+        poses = frames.poses[moving, index]
+        columns = rr.Transform3D.columns(translation=poses[:, :3], quaternion=quaternions_xyzw(poses))
+        stream.put_many(_entity(item.id), frames.times[moving], action, columns)
+    moving = changes(frames.poses)
+    centers = frames.poses[moving, :, :2].reshape(-1, 2)
+    lengths = [len(scene.objects)] * len(moving)
+    stream.put_many(DISCS, frames.times[moving], action, rr.Points2D.columns(positions=centers).partition(lengths))
+    stream.put_many(RINGS, frames.times[moving], action, rr.Ellipses2D.columns(centers=centers).partition(lengths))
+
+
+def log_colors(
+    stream: Stream, scene: Scene, state: State, components: Mapping[str, int], chosen: Sequence[str]
+) -> None:
+    """Colour objects by component, the target and what fell in their own; a ring around the chosen and the fallen."""
+    colors = [_color(scene, object_id, state, components) for object_id in scene.ids]
+    for object_id, color in zip(scene.ids, colors, strict=True):
+        stream.put(_entity(object_id), rr.Cylinders3D.from_fields(colors=[color]))
+    stream.put(DISCS, rr.Points2D.from_fields(colors=colors))
+    rings = [_ring(object_id, _condition(scene, object_id, state), chosen) for object_id in scene.ids]
+    # An object that is not marked has a ring of no size, hidden under its disc: 2D lines are never transparent.
+    sizes = [radius + RING_GAP if ring else 0.0 for radius, ring in zip(scene.radii, rings, strict=True)]
+    shown = [ring or palette.OBJECT for ring in rings]
+    stream.put(RINGS, rr.Ellipses2D.from_fields(half_sizes=np.column_stack([sizes, sizes]), colors=shown))
+
+
+def short_names(scene: Scene) -> list[str]:
+    """The ids without what they all begin with, such as ``7`` for ``object_7``, so that they fit into a disc."""
+    others = [object_id for object_id in scene.ids if object_id != scene.target]
+    heads = {object_id.rpartition("_")[0] for object_id in others}
+    common = f"{heads.pop()}_" if len(heads) == 1 else ""
+    return ["target" if i == scene.target else i.removeprefix(common) for i in scene.ids]
+
+
+def _entity(object_id: str) -> str:
+    return f"world/objects/{rr.escape_entity_path_part(object_id)}"
+
+
+def _condition(scene: Scene, object_id: str, state: State) -> Condition:
+    """What became of an object; one that is held did not fall."""
+    return Condition.UPRIGHT if object_id == state.held else state.conditions[scene.index(object_id)]
+
+
+def _color(scene: Scene, object_id: str, state: State, components: Mapping[str, int]) -> palette.Color:
+    fallen = palette.fallen_color(_condition(scene, object_id, state))
+    if fallen is not None:
+        return fallen
+    if object_id == scene.target:
+        return palette.TARGET
+    return palette.component_color(components[object_id]) if object_id in components else palette.OBJECT
+
+
+def _ring(object_id: str, condition: Condition, chosen: Sequence[str]) -> palette.Color | None:
+    return palette.fallen_color(condition) or (palette.CHOSEN if object_id in chosen else None)

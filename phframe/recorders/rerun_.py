@@ -1,0 +1,159 @@
+"""Records an episode for the Rerun viewer while it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+import rerun as rr
+
+from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Step
+from phframe.recorders import (
+    arm_entities,
+    decision_entities,
+    narration,
+    object_entities,
+    palette,
+    persistence_entities,
+    series,
+    shelf_entities,
+)
+from phframe.recorders.blueprint import blueprint_for
+from phframe.recorders.frames import Frames, parked_arm
+from phframe.recorders.stream import Stream
+
+Observer = object
+
+LOG = "story/log"
+PAGE = "story/decision"
+
+
+class RerunRecorder(Observer):
+    """Writes an ``.rrd`` file that grows with the episode; whatever ends the episode, what was recorded stays.
+
+    Two timelines: ``sim_time``, the time in the world since the episode began, and ``action``, 0 before the first.
+
+    Args:
+        path: The file; one that exists is overwritten. It is created when the episode begins.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._stream: Stream | None = None
+        self._seconds, self._actions, self._plans = 0.0, 0, 0
+
+    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+        """Create the file and write down what stays as it is, and the scene as it begins.
+
+        Raises:
+            InputError: If the file cannot be written.
+        """
+        self._scene, self._arm, self._parked = scene, arm, parked_arm(scene, arm)
+        stream = Stream(self.path, scene.name, blueprint_for(scene.shelf), _properties(setup))
+        self._stream = stream
+        self._seconds, self._actions, self._plans = 0.0, 0, 0
+        shelf_entities.log_shelf(stream, scene.shelf)
+        object_entities.log_objects(stream, scene)
+        arm_entities.log_arm(stream, arm)
+        series.log_styles(stream)
+        self._show_beginning(stream, narration.opening_line(scene, setup))
+
+    def planned(self, plan: Plan) -> None:
+        """Write down what a plan holds and what it cost."""
+        if self._stream is not None:
+            self._plans += 1
+            series.log_planning(self._stream, plan)
+            level = "INFO" if plan.succeeded else "WARN"
+            self._say(self._stream, narration.plan_line(plan, self._plans), level)
+
+    def stepped(self, step: Step, frames: Iterable[tuple[float, State]]) -> None:
+        """Write down why an action was chosen, every frame of it, and what it did."""
+        if self._stream is None:
+            return
+        self._actions += 1
+        self._stream.at(self._seconds, self._actions)
+        self._show_decision(self._stream, step)
+        self._show_frames(self._stream, step, frames)
+        self._show_outcome(self._stream, step)
+        self._stream.flush()
+
+    def finished(self, episode: Episode) -> None:
+        """Write down how it ended."""
+        if self._stream is not None:
+            level = "INFO" if narration.is_good(episode.status) else "WARN"
+            self._say(self._stream, narration.ending_line(episode), level)
+            self._stream.put(PAGE, rr.TextDocument(narration.ending_page(episode), media_type="text/markdown"))
+
+    def close(self) -> None:
+        """Write the rest and end the file."""
+        if self._stream is not None:
+            self._stream.close()
+            self._stream = None
+
+    def _show_beginning(self, stream: Stream, line: str) -> None:
+        initial = self._scene.initial_state()
+        stream.at(0.0, 0)
+        object_entities.log_colors(stream, self._scene, initial, {}, ())
+        series.log_beginning(stream)
+        self._say(stream, line, "INFO")
+        self._log_motion(stream, Frames.gather(np.zeros(1), [initial], self._parked))
+
+    def _show_decision(self, stream: Stream, step: Step) -> None:
+        decision_entities.log_decision(stream, self._scene, step)
+        persistence_entities.log_persistence(stream, step.decision)
+        series.log_decision(stream, step.decision)
+        self._color(stream, step, step.before)
+        self._say(stream, narration.decision_line(step, self._actions), "INFO")
+        self._show_page(stream, step, done=False)
+
+    def _show_frames(self, stream: Stream, step: Step, frames: Iterable[tuple[float, State]]) -> None:
+        """Write the frames down in one piece, those before an interruption too."""
+        times, states = [0.0], [step.before]
+        try:
+            for seconds, state in chain(frames, [(step.motion.duration, step.after)]):
+                times.append(max(seconds, times[-1]))
+                states.append(state)
+        finally:
+            moments = self._seconds + np.array(times)
+            self._write_frames(stream, step, Frames.gather(moments, states, self._parked))
+            self._seconds = float(moments[-1])
+
+    def _write_frames(self, stream: Stream, step: Step, frames: Frames) -> None:
+        self._log_motion(stream, frames)
+        series.log_motion(stream, self._scene, step.decision.corridor, frames, self._actions)
+        for frame in frames.falls:
+            stream.at(float(frames.times[frame]), self._actions)
+            self._color(stream, step, frames.states[frame])
+
+    def _show_outcome(self, stream: Stream, step: Step) -> None:
+        stream.at(self._seconds, self._actions)
+        series.log_outcome(stream, step)
+        level = "WARN" if narration.went_wrong(step, self._scene) else "INFO"
+        self._say(stream, narration.outcome_line(step, self._scene, self._actions), level)
+        self._show_page(stream, step, done=True)
+
+    def _log_motion(self, stream: Stream, frames: Frames) -> None:
+        object_entities.log_motion(stream, self._scene, frames, self._actions)
+        arm_entities.log_motion(stream, self._arm, frames, self._actions)
+
+    def _color(self, stream: Stream, step: Step, state: State) -> None:
+        components = decision_entities.components_of(step.decision)
+        object_entities.log_colors(stream, self._scene, state, components, step.decision.chosen)
+
+    def _show_page(self, stream: Stream, step: Step, *, done: bool) -> None:
+        page = narration.decision_page(step, self._scene, self._actions, done)
+        stream.put(PAGE, rr.TextDocument(page, media_type="text/markdown"))
+
+    def _say(self, stream: Stream, line: str, level: str) -> None:
+        color = palette.CHOSEN if level == "INFO" else palette.TOPPLED
+        stream.put(LOG, rr.TextLog(line, level=level, color=color))
+
+
+def _properties(setup: Setup) -> dict[str, str]:
+    """What an episode is run with, as text."""
+    named = {name: str(getattr(setup, name)) for name in ("planner", "backend", "arm", "topology", "seed")}
+    options = {f"{part}_{key}": str(value) for part, given in setup.options.items() for key, value in given.items()}
+    versions = {f"version_{name}": version for name, version in setup.versions.items()}
+    return {**named, **options, **versions}

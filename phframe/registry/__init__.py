@@ -1,0 +1,21 @@
+"""What there is, by name: the one hook of plugins and built-ins, discovery, and loading."""
+
+from phframe.registry.catalogue import Broken, Catalogue, Entry
+from phframe.registry.extension import API_VERSION, Extension, Kind
+from phframe.registry.hookspec import hookimpl
+from phframe.registry.load import create, load
+from phframe.registry.manager import catalogue, discover
+
+__all__ = [
+    "API_VERSION",
+    "Broken",
+    "Catalogue",
+    "Entry",
+    "Extension",
+    "Kind",
+    "catalogue",
+    "create",
+    "discover",
+    "hookimpl",
+    "load",
+]

@@ -1,0 +1,58 @@
+"""What phframe itself offers, through the hook that plugins use."""
+
+from __future__ import annotations
+
+from phframe.registry.extension import Extension, Kind
+from phframe.registry.hookspec import hookimpl
+
+EXTENSIONS = [
+    Extension(
+        Kind.PLANNER,
+        "phia",
+        "phframe.planners.phia:PHIA",
+        "Pushes the closest group of obstacles, grouped by persistent homology, until the corridor is empty",
+    ),
+    Extension(
+        Kind.PLANNER, "ooa", "phframe.planners.ooa:OOA", "Pushes one obstacle at a time, the closest first; no grouping"
+    ),
+    Extension(
+        Kind.BACKEND,
+        "pymunk",
+        "phframe.backends.pymunk_:PymunkPhysics",
+        "The shelf from above, in 2D, with Coulomb friction: fast",
+    ),
+    Extension(Kind.ARM, "planar", "phframe.arms.planar:PlanarArm", "A gripper on a straight link; slides and turns"),
+    Extension(
+        Kind.TOPOLOGY,
+        "ripser",
+        "phframe.topology.ripser_:Ripser",
+        "Ripser: the paper's engine, quickest for a shelf's few dozen objects",
+    ),
+    Extension(
+        Kind.TOPOLOGY,
+        "single-linkage",
+        "phframe.topology.single_linkage:SingleLinkage",
+        "SciPy's single linkage: the same diagrams, quickest for hundreds of points",
+    ),
+    Extension(Kind.SCENES, "vieira", "phframe.scenes.suites:Vieira", "The scenes of Vieira et al. 2022"),
+    Extension(Kind.SCENES, "papallas", "phframe.scenes.suites:Papallas", "The scenes of Papallas and Dogar 2020"),
+    Extension(
+        Kind.SCENES,
+        "random",
+        "phframe.scenes.generator:RandomScenes",
+        "Scenes made from a seed: obstacles in front of a target deep in the shelf",
+    ),
+    Extension(
+        Kind.RECORDER,
+        "rerun",
+        "phframe.recorders.rerun_:RerunRecorder",
+        "A recording for the Rerun viewer",
+        extra="rerun",
+    ),
+]
+
+
+@hookimpl
+def phframe_extensions() -> list[Extension]:
+    """The built-in extensions."""
+    return list(EXTENSIONS)

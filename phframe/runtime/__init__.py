@@ -1,0 +1,1 @@
+"""Worlds, episodes and ``solve``: what carries plans out."""

@@ -1,0 +1,20 @@
+"""Scenes: the reader and writer of scene files, the published suites, and the generator of random ones."""
+
+from phframe.scenes.generator import RandomOptions, RandomScenes
+from phframe.scenes.reader import parse_scene, read_scene
+from phframe.scenes.spec import is_file_spec
+from phframe.scenes.suites import FileSuite, Papallas, Vieira
+from phframe.scenes.writer import scene_to_yaml, write_scene
+
+__all__ = [
+    "FileSuite",
+    "Papallas",
+    "RandomOptions",
+    "RandomScenes",
+    "Vieira",
+    "is_file_spec",
+    "parse_scene",
+    "read_scene",
+    "scene_to_yaml",
+    "write_scene",
+]

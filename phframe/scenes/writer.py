@@ -1,0 +1,121 @@
+"""``Scene`` to a scene file of format 1, such that reading it gives the same scene."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import uuid
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from phframe.core import InputError, Scene, SceneError, SceneObject
+from phframe.scenes.complaints import complaints
+from phframe.scenes.model import FORMAT, ScenePart
+from phframe.scenes.wording import path_shown
+from phframe.scenes.yaml_scalars import plain_scalar
+from phframe.scenes.yaml_tree import YamlTree
+
+_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*")
+
+
+def scene_to_yaml(scene: Scene) -> str:
+    """The text of a scene file; what has its default value is left out.
+
+    Raises:
+        SceneError: If a name in the scene cannot be written: empty, over 100 characters, or not printable.
+    """
+    content = _content(scene)
+    try:
+        part = ScenePart.model_validate(content)
+    except ValidationError as error:
+        raise SceneError(complaints(error, YamlTree(content, {})), scene.name) from None
+    return "\n".join(_lines(part.model_dump(exclude_defaults=True))) + "\n"
+
+
+def write_scene(scene: Scene, path: str | Path) -> None:
+    """Write a scene file. It appears whole or not at all; one that is there is replaced.
+
+    Raises:
+        InputError: If the file cannot be written.
+        SceneError: If a name in the scene cannot be written.
+    """
+    text = scene_to_yaml(scene)
+    try:
+        _replace(Path(path).resolve(), text)
+    except (OSError, ValueError, RuntimeError) as error:  # a zero byte in the path; a loop of links
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(f"cannot write the scene file {path_shown(path)}: {reason[:1].lower()}{reason[1:]}") from None
+
+
+def _replace(path: Path, text: str) -> None:
+    temporary = path.with_name(f".{uuid.uuid4().hex}.tmp")
+    try:
+        with temporary.open("x", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        temporary.replace(path)
+    finally:
+        with suppress(OSError):
+            temporary.unlink()
+
+
+def _content(scene: Scene) -> dict[str, Any]:
+    """The scene as the mappings and lists of its file. Plain floats: a scene may hold numpy's."""
+    shelf = scene.shelf
+    names = ("depth", "width", "height", "board_friction", "wall_friction")
+    return {
+        "phframe": FORMAT,
+        "name": scene.name,
+        "shelf": {name: float(getattr(shelf, name)) for name in names},
+        "target": scene.target,
+        "objects": [_object(item) for item in scene.objects],
+        "mount": {arm: [float(v) for v in (m.x, m.y, m.z, m.yaw)] for arm, m in scene.mounts.items()},
+    }
+
+
+def _object(item: SceneObject) -> dict[str, Any]:
+    return {
+        "id": item.id,
+        "shape": item.shape.kind,
+        "radius": float(item.shape.radius),
+        "height": float(item.shape.height),
+        "position": [float(v) for v in item.position],
+        "yaw": float(item.yaw),
+        "mass": float(item.mass),
+        "friction": None if item.friction is None else float(item.friction),
+    }
+
+
+_ORDER = ("id", "shape", "radius", "height", "position", "yaw", "mass", "friction")
+
+
+def _lines(content: Mapping[str, Any]) -> Iterator[str]:
+    yield f"phframe: {FORMAT}"
+    yield f"name: {_flow(content['name'])}"
+    yield f"shelf: {_flow(content['shelf'])}"
+    if content.get("mount"):
+        yield f"mount: {_flow(content['mount'])}"
+    yield f"target: {_flow(content['target'])}"
+    yield "objects:"
+    for item in content["objects"]:
+        yield "  - " + _flow({key: item[key] for key in _ORDER if key in item})
+
+
+def _flow(value: Any) -> str:
+    """A value on one line; numbers in the fewest digits that give the same number again."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_flow(key)}: {_flow(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_flow(item) for item in value) + "]"
+    return _text(value) if isinstance(value, str) else repr(value)
+
+
+def _text(text: str) -> str:
+    plain = _PLAIN.fullmatch(text) and plain_scalar(text) == text
+    return text if plain else json.dumps(text, ensure_ascii=False)

@@ -1,0 +1,1 @@
+"""Topology engines, one file per engine. Importing this package imports none of them."""
