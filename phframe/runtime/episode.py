@@ -1,0 +1,243 @@
+"""A plan carried out, closed loop: plan, execute, observe, replan where reality differs; then reach, grasp, withdraw."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from phframe.core import (
+    Action,
+    Budget,
+    Condition,
+    Decision,
+    Episode,
+    Infeasible,
+    JointTrajectory,
+    Phase,
+    Plan,
+    Planner,
+    Setup,
+    State,
+    Status,
+    Step,
+    TopologyEngine,
+    Unreachable,
+)
+from phframe.pushing.corridor import corridor_half_width, find_corridor
+from phframe.pushing.options import PushingOptions
+from phframe.pushing.reach import grasp_action
+from phframe.runtime.execution_world import ExecutionWorld
+from phframe.runtime.observer import Observer
+from phframe.runtime.planning_world import PlanningWorld
+from phframe.runtime.replay import replay
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """How an episode closes the loop.
+
+    Attributes:
+        max_replans: How often the planner may be asked again.
+        tolerance: An object farther than this (m) from where it was expected calls for a replan.
+        time_limit: Wall time for all planning together (s).
+    """
+
+    max_replans: int = 5
+    tolerance: float = 0.01
+    time_limit: float = 300.0
+
+
+def run_episode(
+    planner: Planner[Any],
+    topology: TopologyEngine[Any],
+    planning: PlanningWorld,
+    execution: ExecutionWorld,
+    setup: Setup,
+    loop: Loop = Loop(),  # noqa: B008 - immutable
+    observers: Sequence[Observer] = (),
+) -> Episode:
+    """Plan in one world and carry the plan out in another, which may be more real.
+
+    A failed plan's actions are not executed. Observers are told as it happens and closed by whoever made them.
+
+    Args:
+        planner: Makes the plans.
+        topology: For the planner.
+        planning: Where it plans.
+        execution: Where the plan is carried out, from the scene's initial state on.
+        setup: What to note in the episode.
+        loop: When to replan, and how often.
+        observers: Who looks on.
+    """
+    return _Run(planner, topology, planning, execution, setup, loop, observers).episode()
+
+
+class _Run:
+    """One episode under way."""
+
+    def __init__(
+        self,
+        planner: Planner[Any],
+        topology: TopologyEngine[Any],
+        planning: PlanningWorld,
+        execution: ExecutionWorld,
+        setup: Setup,
+        loop: Loop,
+        observers: Sequence[Observer],
+    ) -> None:
+        self._planner, self._topology, self._planning, self._execution = planner, topology, planning, execution
+        self._setup, self._loop, self._observers = setup, loop, observers
+        self._scene = execution.scene
+        self._replaying = planning if planning.spec == execution.spec else PlanningWorld(execution.spec)
+        self._seeds = np.random.SeedSequence(setup.seed)
+        self._plans: list[Plan] = []
+        self._steps: list[Step] = []
+        self._rejected: tuple[Action, ...] = ()
+        self._state = self._planned_from = self._scene.initial_state()
+
+    def episode(self) -> Episode:
+        self._tell(lambda observer: observer.begin(self._scene, self._setup, self._execution.arm.shape))
+        self._state = self._execution.start()
+        status, reason = self._loop_until_done()
+        episode = Episode(self._scene, self._setup, status, reason, tuple(self._plans), tuple(self._steps))
+        self._tell(lambda observer: observer.finished(episode))
+        return episode
+
+    def _loop_until_done(self) -> tuple[Status, str]:
+        """Plan and carry out until a plan came true or there is no reason to try again."""
+        while True:
+            plan = self._plan()
+            if not plan.succeeded:
+                return plan.status, plan.reason
+            problem = self._push(plan)
+            status, reason = (Status.FAILED, problem) if problem else self._grasp(plan)
+            if status is Status.RETRIEVED:
+                return status, ""
+            if self._lost:
+                return Status.FAILED, f"the target was lost: {reason}"
+            if len(self._plans) > self._loop.max_replans:
+                return status, reason
+
+    def _plan(self) -> Plan:
+        """Ask the planner, with what is left of the time."""
+        spent = sum(plan.cost.total for plan in self._plans)
+        task = self._planning.task(
+            self._state if self._same_arm else self._state.parked(),
+            self._topology,
+            np.random.default_rng(self._seeds.spawn(1)[0]),
+            budget=Budget(max(0.0, self._loop.time_limit - spent)),
+            rejected=self._rejected,
+        )
+        self._planned_from = task.start
+        plan = self._planner.plan(task)
+        self._plans.append(plan)
+        self._tell(lambda observer: observer.planned(plan))
+        return plan
+
+    @property
+    def _same_arm(self) -> bool:
+        ours, theirs = self._planning.spec, self._execution.spec
+        return (ours.backend, ours.arm) == (theirs.backend, theirs.arm)
+
+    def _push(self, plan: Plan) -> str:
+        """Carry out the plan's pushes; why to replan, if something was not as expected."""
+        for action, expected, decision in zip(plan.actions, plan.expected, plan.decisions, strict=True):
+            if action.grasps:
+                break
+            if problem := self._step(action, expected, decision) or self._deviation(expected, action):
+                return problem
+        return ""
+
+    def _grasp(self, plan: Plan) -> tuple[Status, str]:
+        """Reach, grasp and withdraw: as planned, or where the plan ends with an empty corridor, as the paper allows."""
+        if plan.actions and plan.actions[-1].grasps:
+            before = plan.expected[-2] if len(plan.expected) > 1 else self._planned_from
+            action, expected, decision = self._aimed(plan.actions[-1], before), plan.expected[-1], plan.decisions[-1]
+        else:
+            found = self._find_grasp(plan)
+            if isinstance(found, Infeasible):
+                return Status.CLEARED, found.reason
+            action, expected, decision = found, None, Decision()
+        if rejection := self._step(action, expected, decision):
+            return Status.CLEARED, rejection
+        return self._grasp_outcome()
+
+    def _aimed(self, action: Action, planned: State) -> Action:
+        """A planned grasp, moved along with the target to where it is now."""
+        row = self._scene.target_index
+        shift = np.append(self._state.positions[row] - planned.positions[row], 0.0)
+        return replace(action, path=replace(action.path, poses=action.path.poses + shift))
+
+    def _find_grasp(self, plan: Plan) -> Action | Infeasible:
+        options = self._planner.options
+        pushing = options if isinstance(options, PushingOptions) else PushingOptions()
+        corridors = [decision.corridor for decision in plan.decisions if decision.corridor is not None]
+        arm = self._execution.arm.shape
+        width = corridors[-1].half_width if corridors else corridor_half_width(pushing.half_width, self._scene, arm)
+        corridor = find_corridor(self._state.positions[self._scene.target_index], self._scene.shelf, width)
+        return (
+            corridor
+            if isinstance(corridor, Infeasible)
+            else grasp_action(self._scene, self._state, corridor, arm, pushing)
+        )
+
+    def _grasp_outcome(self) -> tuple[Status, str]:
+        step = self._steps[-1]
+        if self._state.held == self._scene.target:
+            return Status.RETRIEVED, ""
+        if step.motion.followed < _end_of_reach(step):
+            return Status.CLEARED, "the reach stalled"
+        return Status.REACHED, "the target was not held"
+
+    def _step(self, action: Action, expected: State | None, decision: Decision) -> str:
+        """Carry out one action; why not, where the arm cannot."""
+        before = self._state
+        trajectory = self._execution.lift(before, action)
+        if isinstance(trajectory, Unreachable):
+            self._rejected = (*self._rejected, action)
+            return f"the arm cannot do {action.name}: {trajectory.why}"
+        motion = self._execution.execute(trajectory)
+        self._state = self._execution.observe()
+        step = Step(action, trajectory, before, self._state, expected, motion, decision, len(self._plans) - 1)
+        self._steps.append(step)
+        self._tell(lambda observer: observer.stepped(step, _Frames(self._replaying, step)))
+        return ""
+
+    def _deviation(self, expected: State, action: Action) -> str:
+        """What is not where it was expected, if anything."""
+        deviation = self._state.displacement(expected)
+        worst = int(deviation.argmax())
+        if deviation[worst] <= self._loop.tolerance:
+            return ""
+        what = f"{deviation[worst]:.3f} m from where" if np.isfinite(deviation[worst]) else "not in the condition"
+        return f"{self._scene.ids[worst]} is {what} it was expected after {action.name}"
+
+    @property
+    def _lost(self) -> bool:
+        """Whether the target can no longer be retrieved."""
+        return self._state.conditions[self._scene.target_index] is not Condition.UPRIGHT
+
+    def _tell(self, what: Callable[[Observer], None]) -> None:
+        for observer in self._observers:
+            what(observer)
+
+
+@dataclass(frozen=True, slots=True)
+class _Frames:
+    """Frames of a step, replayed each time somebody asks for them."""
+
+    world: PlanningWorld
+    step: Step
+
+    def __iter__(self) -> Iterator[tuple[float, State]]:
+        return replay(self.world, self.step.before, self.step.action)
+
+
+def _end_of_reach(step: Step) -> float:
+    """When the gripper is at the grasp pose (s)."""
+    trajectory = step.trajectory.gripper if isinstance(step.trajectory, JointTrajectory) else step.trajectory
+    first_grasp = trajectory.phases.index(Phase.GRASP)
+    return float(trajectory.times[first_grasp])

@@ -1,0 +1,84 @@
+"""Plans and episodes as files: JSON, written whole or not at all."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from phframe.core import Episode, InputError, Plan, SceneError
+
+FORMAT = 1
+"""Of the files; a file of a newer one is refused."""
+
+_KINDS: dict[str, type[Plan] | type[Episode]] = {"plan": Plan, "episode": Episode}
+
+
+def save(value: Plan | Episode, path: str | Path) -> Path:
+    """Write a plan or an episode; what was there before stays until the new file is whole.
+
+    Raises:
+        InputError: If the file cannot be written.
+    """
+    kind = next(name for name, cls in _KINDS.items() if isinstance(value, cls))
+    content = TypeAdapter(type(value)).dump_python(value, mode="json")
+    return write_whole(Path(path), json.dumps({"phframe": FORMAT, "kind": kind, kind: content}))
+
+
+def load(path: str | Path) -> Plan | Episode:
+    """Read what ``save`` wrote.
+
+    Raises:
+        InputError: If the file cannot be read, is of a newer format or is not a plan or an episode.
+    """
+    source = Path(path)
+    try:
+        document = json.loads(source.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot read {source}: {error.strerror}") from None
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{source} is not JSON: {error}") from None
+    return _decoded(document, source)
+
+
+def _decoded(document: Any, source: Path) -> Plan | Episode:
+    if not isinstance(document, dict) or document.get("kind") not in _KINDS:
+        raise InputError(f"{source} is not a phframe plan or episode")
+    if document.get("phframe") != FORMAT:
+        raise InputError(f"{source} is of format {document.get('phframe')!r}; this phframe reads format {FORMAT}")
+    kind = document["kind"]
+    try:
+        decoded: Plan | Episode = TypeAdapter(_KINDS[kind]).validate_python(document.get(kind))
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(part) for part in first["loc"])
+        raise InputError(f"{source}: {where}: {first['msg']} ({error.error_count()} problems in all)") from None
+    except (SceneError, InputError, ValueError, TypeError) as error:
+        raise InputError(f"{source}: {error}") from None
+    return decoded
+
+
+def write_whole(path: Path, text: str) -> Path:
+    """Write a text file so that it is never seen half-written.
+
+    Raises:
+        InputError: If it cannot be written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8") as stream:
+                stream.write(text)
+            Path(temporary).chmod(0o644)
+            Path(temporary).replace(path)
+        except BaseException:
+            Path(temporary).unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise InputError(f"cannot write {path}: {error.strerror}") from None
+    return path

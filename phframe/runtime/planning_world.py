@@ -1,0 +1,90 @@
+"""The world that planners plan in: it applies actions to any state, and never goes on from where it is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import Any
+
+import numpy as np
+
+from phframe.core import Action, Budget, Motion, State, Task, TopologyEngine, Transition, Unreachable, Watch
+from phframe.runtime.world import World, WorldSpec
+
+Pair = tuple[State, Action]
+
+
+class PlanningWorld(World):
+    """Applies actions: pure, from any state.
+
+    Args:
+        spec: What to build.
+        workers: Processes over which ``apply_many`` spreads its work; 1: none but this one.
+    """
+
+    def __init__(self, spec: WorldSpec, workers: int = 1) -> None:
+        super().__init__(spec)
+        self._workers = workers
+        self._pool: ProcessPoolExecutor | None = None
+
+    def apply(self, state: State, action: Action, watch: Watch | None = None) -> Transition:
+        """What an action makes of a state: a function of the two alone. One that the arm cannot do changes nothing."""
+        held = self.physics.restore(state)
+        trajectory = self.lift(held, action)
+        if isinstance(trajectory, Unreachable):
+            return Transition(state, Motion(0.0, stopped=f"unreachable: {trajectory.why}"))
+        motion = self.follow(trajectory, watch)
+        return Transition(self.physics.observe(), motion)
+
+    def apply_many(self, pairs: Sequence[Pair]) -> list[Transition]:
+        """``apply`` to many pairs, in their order; the same bits whatever the number of workers."""
+        if self._workers == 1 or len(pairs) < 2:
+            return [self.apply(state, action) for state, action in pairs]
+        if self._pool is None:
+            context = get_context("spawn")
+            self._pool = ProcessPoolExecutor(self._workers, context, _Worker.begin, (self.spec,))
+        return list(self._pool.map(_Worker.apply, pairs, chunksize=1))
+
+    def task(
+        self,
+        start: State,
+        topology: TopologyEngine[Any],
+        rng: np.random.Generator,
+        *,
+        budget: Budget = Budget(),  # noqa: B008 - immutable
+        rejected: tuple[Action, ...] = (),
+    ) -> Task:
+        """The problem of retrieving the target from a state in this world."""
+        return Task(
+            scene=self.scene,
+            start=start,
+            arm=self.arm.shape,
+            topology=topology,
+            apply=self.apply,
+            apply_many=self.apply_many if self._workers > 1 else None,
+            rng=rng,
+            budget=budget,
+            rejected=rejected,
+        )
+
+    def close(self) -> None:
+        """Give the engine's memory back and end the workers."""
+        super().close()
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+            self._pool = None
+
+
+class _Worker:
+    """The one world of a worker process."""
+
+    world: PlanningWorld
+
+    @classmethod
+    def begin(cls, spec: WorldSpec) -> None:
+        cls.world = PlanningWorld(spec)
+
+    @classmethod
+    def apply(cls, pair: Pair) -> Transition:
+        return cls.world.apply(*pair)

@@ -1,0 +1,43 @@
+"""From what a user calls a scene to the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from phframe.core import InputError, Scene, SceneSuite, UnknownNameError
+from phframe.registry import Kind, catalogue, create
+from phframe.scenes.reader import read_scene
+from phframe.scenes.spec import is_file_spec
+
+
+def find_scene(spec: str | Path | Scene, options: Mapping[str, Any] | None = None) -> Scene:
+    """The scene that a spec stands for.
+
+    Args:
+        spec: ``suite/name``, a file, or a scene already.
+        options: Of the suite, by key.
+
+    Raises:
+        UnknownNameError: If there is no such suite or scene.
+        SceneError: If the scene cannot be.
+        InputError: If the file cannot be read.
+    """
+    if isinstance(spec, Scene):
+        return spec
+    if is_file_spec(spec):
+        if options:
+            raise InputError(f"a scene file takes no options, but there is: {', '.join(options)}")
+        return read_scene(Path(spec).expanduser())
+    suite_name, _, name = str(spec).partition("/")
+    suite: SceneSuite[Any] = create(Kind.SCENES, suite_name, options)
+    if not name:
+        raise UnknownNameError("scene", str(spec), [f"{suite_name}/{known}" for known in suite.names()])
+    return suite.load(name)
+
+
+def scene_names() -> tuple[str, ...]:
+    """Every scene that has a name, as ``suite/name``; of generators, a few examples."""
+    suites = [entry.name for entry in catalogue().extensions(Kind.SCENES)]
+    return tuple(f"{suite}/{name}" for suite in suites for name in create(Kind.SCENES, suite).names())

@@ -1,0 +1,137 @@
+"""What every world is: one scene, one arm and one engine, and how an action is carried out in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+
+from phframe.core import (
+    Action,
+    ArmModel,
+    Contacts,
+    FloatArray,
+    GripperPath,
+    GripperTrajectory,
+    IncompatibleError,
+    Motion,
+    Phase,
+    PhaseRule,
+    Physics,
+    Scene,
+    Settle,
+    State,
+    Trajectory,
+    Unreachable,
+    Watch,
+    compose,
+    starting_from,
+    time_path,
+    yaw_of,
+)
+from phframe.registry import Kind, create, load
+
+APPROACH_SPEED = 0.5
+"""Of the fingertip outside the shelf, where nothing is in the way (m/s)."""
+RETREAT_SPEED = 0.25
+"""Of the fingertip that draws back after a stall (m/s)."""
+MOUTH_CLEARANCE = 0.05
+"""How far before the mouth plane an arm that draws back ends (m)."""
+
+
+@dataclass(frozen=True, slots=True)
+class WorldSpec:
+    """All it takes to build a world, by name: small and picklable, so that workers build their own.
+
+    Attributes:
+        scene: The scene.
+        backend: Registered name of the physics backend.
+        arm: Registered name of the arm.
+        backend_options: Of the backend, by key; values or their text.
+        arm_options: Of the arm, by key.
+    """
+
+    scene: Scene
+    backend: str = "pymunk"
+    arm: str = "planar"
+    backend_options: Mapping[str, Any] = field(default_factory=dict)
+    arm_options: Mapping[str, Any] = field(default_factory=dict)
+
+
+class World:
+    """A physics engine with a scene and an arm in it. Close it, or use it in a ``with``.
+
+    Two kinds of it are used: a ``PlanningWorld`` applies actions, an ``ExecutionWorld`` executes them.
+
+    Args:
+        spec: What to build.
+
+    Raises:
+        UnknownNameError: If the backend or the arm does not exist.
+        NotInstalledError: If its library is not installed.
+        OptionError: If an option is unknown or out of range.
+        IncompatibleError: If arm and backend cannot go together.
+    """
+
+    def __init__(self, spec: WorldSpec) -> None:
+        self.spec, self.scene = spec, spec.scene
+        self.arm: ArmModel[Any] = create(Kind.ARM, spec.arm, spec.arm_options)
+        self.mount = spec.scene.mounts.get(spec.arm) or self.arm.default_mount(spec.scene.shelf)
+        backend: type[Physics[Any]] = load(Kind.BACKEND, spec.backend)
+        options = backend.options_type.parse(spec.backend_options, f"backend {spec.backend}")
+        if backend.executes is not GripperTrajectory:
+            raise IncompatibleError(f"backend {spec.backend!r} drives joints, for which no motion planner is installed")
+        self.physics: Physics[Any] = backend(spec.scene, self.arm, self.mount, options)
+        self._home = _seen_from_above(compose(self.mount.pose, self.arm.forward(self.arm.home)))
+
+    def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
+        """What to drive to carry out an action from a state: the way to the path's beginning, and the path."""
+        pose = self._home if state.arm is None else state.arm.gripper
+        first = action.path.rules[action.path.phases[0]].opening
+        path = starting_from(action.path, pose, PhaseRule(APPROACH_SPEED, first, Contacts.NONE))
+        opening = self.arm.shape.min_opening if state.arm is None else state.arm.commanded_opening
+        return time_path(path, opening, self.arm.force_limit)
+
+    def follow(self, trajectory: Trajectory, watch: Watch | None = None) -> Motion:
+        """Follow a trajectory from where the world is and let things settle; draw straight back after a stall."""
+        motion = self.physics.execute(trajectory, settle=Settle(), watch=watch)
+        if motion.complete:
+            return motion
+        later = (
+            None if watch is None else Watch(watch.period, lambda time, seen: watch.look(motion.duration + time, seen))
+        )
+        return motion.then(self.physics.execute(self._retreat(self.physics.observe()), settle=Settle(), watch=later))
+
+    def _retreat(self, state: State) -> GripperTrajectory:
+        """Straight back along the gripper's axis until the whole arm is before the mouth."""
+        assert state.arm is not None, "an arm that has stalled is not parked"
+        pose, opening = state.arm.gripper, state.arm.commanded_opening
+        ahead = np.array([np.cos(pose[2]), np.sin(pose[2])])
+        away = max(0.0, float(pose[0]) + MOUTH_CLEARANCE + self._front(float(pose[2]))) / ahead[0]
+        out = np.array([*(pose[:2] - away * ahead), pose[2]])
+        rule = PhaseRule(RETREAT_SPEED, opening, Contacts.OBJECTS)
+        path = GripperPath(np.array([pose, out]), (Phase.RETREAT,), {Phase.RETREAT: rule})
+        return time_path(path, opening, self.arm.force_limit)
+
+    def _front(self, yaw: float) -> float:
+        """How far the arm stands out ahead of its fingertip at a yaw (m)."""
+        return max(float((outline.vertices @ [np.cos(yaw), -np.sin(yaw)]).max()) for outline in self.arm.shape.closed)
+
+    def close(self) -> None:
+        """Give the engine's memory back."""
+        self.physics.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def _seen_from_above(pose: FloatArray) -> FloatArray:
+    return np.array([pose[0], pose[1], yaw_of(pose)])
