@@ -64,7 +64,7 @@ class PymunkPhysics(Physics[PymunkOptions]):
             set_opening(world, state.arm.opening)
             world.command = state.arm.commanded_opening
         if state.held is not None and state.held in world.items:
-            hold(world, world.items[state.held])
+            hold(world, world.items[state.held], world.command)
         return read_state(world)
 
     def _build(self, state: State) -> World:

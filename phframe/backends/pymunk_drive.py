@@ -6,15 +6,15 @@ import math
 
 import numpy as np
 
-from phframe.backends.pymunk_gripper import between_fingers, hold, place_arm, set_opening
-from phframe.backends.pymunk_quiet import quiet_ticks
+from phframe.backends.pymunk_gripper import between_fingers, gripped, hold, place_arm, set_opening
+from phframe.backends.pymunk_quiet import free_share, is_still, stays_outside
 from phframe.backends.pymunk_report import motion_of
 from phframe.backends.pymunk_state import is_calm, read_state, refuse_divergence, spill
 from phframe.backends.pymunk_world import World, note_contact
 from phframe.core import FORCE_WINDOW, FloatArray, GripperTrajectory, InputError, Motion, Phase, Settle, Stop, Watch
 
-SPILL_CHECK = 30
-"""Steps between looks at what has left the board: 1/8 s at the default step."""
+STRETCH = 30
+"""Steps between looks at what has left the board and whether all is still again: 1/8 s at the default step."""
 CALM_CHECK = 6
 """Steps between looks at whether all is at rest."""
 START_POSITION, START_YAW = 2e-3, 1e-2
@@ -84,31 +84,66 @@ class Drive:
             set_opening(world, float(trajectory.openings[0]))
         _refuse_jump(world, trajectory.poses[0])
         self._look(always=True)
-        if world.at_rest and world.held is None:
-            self._pass_over(quiet_ticks(world, trajectory, self._ticks))
-
-    def _pass_over(self, ticks: int) -> None:
-        """Put the arm where it is after so many steps; show it on the way to whoever looks on."""
-        stops = [ticks] if self._period is None or ticks == 0 else [*range(self._period, ticks, self._period), ticks]
-        for self._world.tick in stops if ticks else []:
-            pose, opening = self._trajectory.at(self._world.tick * self._step)
-            place_arm(self._world, pose)
-            set_opening(self._world, opening)
-            self._look()
 
     def _follow(self, leg: int) -> None:
-        """Drive the carrier along what is left of a leg."""
+        """Drive the carrier along a leg, passing over what is free while all is still."""
         world, trajectory, end = self._world, self._trajectory, self._ticks[leg + 1]
         world.arm.body.each_arbiter(note_contact, world.space, world)
-        self._set_speed(trajectory.poses[leg + 1], (end - world.tick) * self._step)
-        world.at_rest = False
-        grips = trajectory.openings[leg] != trajectory.openings[leg + 1]
+        if trajectory.openings[leg] != trajectory.openings[leg + 1]:
+            self._open_or_close(leg, end)
         while world.tick < end and not self._ended:
-            if grips:
-                self._move_fingers(closing=trajectory.phases[leg] is Phase.GRASP)
-            self._advance(min(world.tick + (1 if grips else self._window), end))
-            self._inspect()
+            self._pass_over(leg, end)
+            if world.tick < end:
+                self._drive(leg, end, min(world.tick + STRETCH, end))
         refuse_divergence(world)
+
+    def _pass_over(self, leg: int, end: int) -> None:
+        """Put the arm as far along a leg as nothing can happen, showing it on the way to whoever looks on."""
+        world, target = self._world, self._trajectory.poses[leg + 1]
+        if not (world.at_rest or is_still(world)):
+            return
+        start = np.array([*world.arm.carrier.position, world.arm.carrier.angle])
+        begin = world.tick
+        free = math.floor(free_share(world, start, target) * (end - begin))
+        for world.tick in self._stops(begin, begin + free):
+            place_arm(world, start + (target - start) * ((world.tick - begin) / (end - begin)))
+            self._look()
+
+    def _stops(self, begin: int, end: int) -> list[int]:
+        """The steps, after the first, at which somebody looks on, and the last."""
+        if self._period is None or end == begin:
+            return [end] if end > begin else []
+        first = (begin // self._period + 1) * self._period
+        return [*range(first, end, self._period), end]
+
+    def _drive(self, leg: int, end: int, until: int) -> None:
+        """Step along a leg until a number of steps, looking after the arm on the way."""
+        world = self._world
+        self._set_speed(self._trajectory.poses[leg + 1], (end - world.tick) * self._step)
+        world.at_rest = False
+        while world.tick < until and not self._ended:
+            self._advance(min(world.tick + self._window, until))
+            self._heed_stop()
+        spill(world)
+
+    def _open_or_close(self, leg: int, end: int) -> None:
+        """Move the fingers along a leg, until they hold something; before the mouth, where they meet nothing, at once."""
+        world, trajectory, begin = self._world, self._trajectory, self._world.tick
+        first, last = (float(opening) for opening in trajectory.openings[leg : leg + 2])
+        if world.at_rest and stays_outside(world, trajectory.poses[leg], trajectory.poses[leg + 1]):
+            set_opening(world, last)
+            return
+        within_reach = between_fingers(world) if trajectory.phases[leg] is Phase.GRASP else []
+        self._set_speed(trajectory.poses[leg + 1], (end - begin) * self._step)
+        world.at_rest = False
+        while world.tick < end and not self._ended:
+            if (item := gripped(world, within_reach)) is not None:
+                hold(world, item, last)
+                return
+            if world.held is None:
+                set_opening(world, first + (last - first) * ((world.tick + 1 - begin) / (end - begin)))
+            self._advance(world.tick + 1)
+            self._heed_stop()
 
     def _set_speed(self, target: FloatArray, duration: float) -> None:
         """Make the carrier arrive at a pose in time; the drive need not accelerate the arm itself."""
@@ -117,15 +152,6 @@ class Drive:
         carrier.velocity = (float(target[0]) - x) / duration, (float(target[1]) - y) / duration
         carrier.angular_velocity = (float(target[2]) - carrier.angle) / duration
         body.velocity, body.angular_velocity = carrier.velocity, carrier.angular_velocity
-
-    def _move_fingers(self, *, closing: bool) -> None:
-        """Set the opening for the next step; fingers that close on an object hold it and stop."""
-        world = self._world
-        _, world.command = self._trajectory.at((world.tick + 1) * self._step)
-        if closing and world.held is None and (item := between_fingers(world)) is not None:
-            hold(world, item)
-        if world.held is None:
-            set_opening(world, world.command)
 
     def _advance(self, end: int) -> None:
         """Step to a number of steps and note the mean force on the way; the hot path."""
@@ -148,10 +174,7 @@ class Drive:
         self.lag = max(self.lag, lag)
         self.stalled = self.stalled or lag > self._stall_lag
 
-    def _inspect(self) -> None:
-        """Take out what spilled and see whether the motion must end."""
-        if self._world.tick % SPILL_CHECK < self._window:
-            spill(self._world)
+    def _heed_stop(self) -> None:
         if self._stop is not None and self.cause is None:
             self.cause = _cause(self._stop, self._world, self.force)
 
@@ -167,6 +190,7 @@ class Drive:
     def _settle(self, settle: Settle) -> None:
         """Wait until everything has been calm for long enough."""
         world = self._world
+        world.at_rest = world.at_rest or is_still(world)
         calm, limit = 0, world.tick + math.ceil(settle.timeout / self._step)
         while calm * self._step < settle.hold and world.tick < limit and not world.at_rest:
             self._advance(world.tick + CALM_CHECK)

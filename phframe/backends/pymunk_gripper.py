@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pymunk
 
 from phframe.backends.pymunk_world import Item, World
@@ -12,7 +14,9 @@ TOUCH = 5e-4
 
 
 def place_arm(world: World, pose: FloatArray) -> None:
-    """Put the arm at a fingertip pose ``(3,)``, at rest; no force acts, so only where nothing is in the way."""
+    """Put the arm, and what it holds, at a fingertip pose ``(3,)``, at rest; only where nothing is in the way."""
+    if world.held is not None:
+        _carry_along(world, pose)
     for body in (world.arm.body, world.arm.carrier):
         body.position = float(pose[0]), float(pose[1])
         body.angle = float(pose[2])
@@ -21,10 +25,18 @@ def place_arm(world: World, pose: FloatArray) -> None:
     world.parked = False
 
 
+def _carry_along(world: World, pose: FloatArray) -> None:
+    """Move what is held as the fingertip is about to move, without a turn."""
+    held, x, y = world.items[world.held or ""].body, *world.arm.body.position
+    held.position = held.position.x + float(pose[0]) - x, held.position.y + float(pose[1]) - y
+    held.velocity, held.angular_velocity = (0.0, 0.0), 0.0
+
+
 def set_opening(world: World, opening: float) -> None:
     """Put the fingers ``opening`` (m) apart."""
     if opening == world.opening:
         return
+    shift = opening - world.min_opening
     for polygon, outline in world.arm.fingers:
         polygon.unsafe_set_vertices(
             [(float(x), float(y)) for x, y in outline.opened(opening - world.min_opening).vertices]
@@ -32,26 +44,39 @@ def set_opening(world: World, opening: float) -> None:
     world.opening = world.command = opening
 
 
-def between_fingers(world: World) -> Item | None:
-    """The object that both fingers touch, if there is one."""
-    for item in world.items.values():
-        if _touched_by_all(world, item):
+def between_fingers(world: World) -> list[Item]:
+    """The objects whose centres lie between the open fingers."""
+    return [item for item in world.items.values() if all(gap >= 0.0 for gap in _gaps(world, item))]
+
+
+def gripped(world: World, items: Sequence[Item]) -> Item | None:
+    """Which of some objects both fingers touch, if any does."""
+    for item in items:
+        gaps = _gaps(world, item)
+        if gaps and all(gap <= item.radius + TOUCH for gap in gaps):
             return item
     return None
 
 
-def _touched_by_all(world: World, item: Item) -> bool:
+def _gaps(world: World, item: Item) -> list[float]:
+    """Distance from each finger's inner face to an object's centre (m); negative where it is not beside the finger."""
     center = world.arm.body.world_to_local(item.body.position)
-    fingers = [outline for _, outline in world.arm.fingers]
-    return bool(fingers) and all(
-        outline.vertices[:, 0].min() <= center.x <= outline.vertices[:, 0].max()
-        and -TOUCH <= world.opening / 2.0 - outline.side * center.y <= item.radius + TOUCH
-        for outline in fingers
-    )
+    return [
+        world.opening / 2.0 - outline.side * center.y
+        if outline.vertices[:, 0].min() <= center.x <= outline.vertices[:, 0].max()
+        else -1.0
+        for _, outline in world.arm.fingers
+    ]
 
 
-def hold(world: World, item: Item) -> None:
-    """Join an object to the gripper: it leaves the board and goes where the gripper goes."""
+def hold(world: World, item: Item, command: float) -> None:
+    """Join an object to the gripper: it leaves the board and goes where the gripper goes.
+
+    Args:
+        world: Where.
+        item: What.
+        command: The opening that the fingers go on being told to have (m), and squeeze for.
+    """
     world.space.remove(*item.floor)
     item.shape.filter = pymunk.ShapeFilter(group=1)
     grip = (
@@ -59,4 +84,4 @@ def hold(world: World, item: Item) -> None:
         pymunk.GearJoint(world.arm.body, item.body, item.body.angle - world.arm.body.angle, 1.0),
     )
     world.space.add(*grip)
-    world.grip, world.held = grip, item.name
+    world.grip, world.held, world.command = grip, item.name, command

@@ -1,43 +1,103 @@
-"""How long an arm can move before anything can happen: while all is at rest and the arm is away from the shelf."""
+"""How much of a straight motion can be passed over: while all is still, nothing happens until the arm meets something.
+
+What a run passes over costs no steps, and the result is the same: bodies at rest on the board stay where they are.
+"""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
-
 import numpy as np
+from numpy.typing import NDArray
 
-from phframe.backends.pymunk_world import World
-from phframe.core import FloatArray, GripperTrajectory
+from phframe.backends.pymunk_world import Item, World
+from phframe.core import FloatArray, turn
 
-EDGE_MARGIN = 2e-3
-"""The arm is away when it is farther than this (m) from what may stand out of the mouth."""
+MARGIN = 1e-3
+"""The arm is free as long as it is farther than this (m) from everything."""
+STILL = 1e-6
+"""Slower than this (m/s, rad/s) is not moving: friction brings bodies to a full stop."""
 TURN_SAMPLES = 9
-"""Poses looked at along a leg that turns."""
+"""Poses looked at along a motion that turns."""
 
 
-def quiet_ticks(world: World, trajectory: GripperTrajectory, ticks: Sequence[int]) -> int:
-    """Steps until the arm first comes near the shelf.
-
-    Args:
-        world: At rest.
-        trajectory: Where the arm goes.
-        ticks: Steps from the beginning to each of its samples.
-    """
-    near = -max((item.radius for item in world.items.values()), default=0.0) - EDGE_MARGIN
-    vertices = np.vstack([outline.vertices for _, outline in world.arm.parts])
-    for leg, (start, end) in enumerate(zip(trajectory.poses[:-1], trajectory.poses[1:], strict=True)):
-        fronts = _fronts(vertices, start, end)
-        if fronts.max() > near:
-            straight = start[2] == end[2] and fronts[0] < near
-            share = (near - fronts[0]) / (fronts[-1] - fronts[0]) if straight else 0.0
-            return ticks[leg] + math.floor(share * (ticks[leg + 1] - ticks[leg]))
-    return ticks[-1]
+def is_still(world: World) -> bool:
+    """Whether no object moves at all, leaving out what is held."""
+    return all(
+        abs(body.velocity.x) < STILL and abs(body.velocity.y) < STILL and abs(body.angular_velocity) < STILL
+        for body in (item.body for item in world.items.values() if item.name != world.held)
+    )
 
 
-def _fronts(vertices: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
-    """How far ahead (x, m) the arm stands at some moments between two poses, both included."""
-    shares = np.linspace(0.0, 1.0, 2 if start[2] == end[2] else TURN_SAMPLES)
-    poses = start + shares[:, None] * (end - start)
-    ahead = np.cos(poses[:, 2:]) * vertices[:, 0] - np.sin(poses[:, 2:]) * vertices[:, 1]
-    return np.asarray(poses[:, 0] + ahead.max(axis=1))
+def free_share(world: World, start: FloatArray, end: FloatArray) -> float:
+    """The share, 0 to 1, of the way between two poses ``(3,)`` on which the arm and what it holds meet nothing."""
+    if start[2] != end[2]:
+        return 1.0 if stays_outside(world, start, end) else 0.0
+    if not _clear_of_walls(world, start, end):
+        return 0.0
+    others = [item for item in world.items.values() if item.name != world.held]
+    points, radii = _obstacles(world, others)
+    back = turn(float(start[2]))
+    lower, upper = _boxes(world, back, start)
+    return _first_hit((points - start[:2]) @ back, radii, lower, upper, (end[:2] - start[:2]) @ back)
+
+
+def _obstacles(world: World, items: list[Item]) -> tuple[FloatArray, FloatArray]:
+    """Centres ``(k, 2)`` and radii ``(k,)`` of the objects and, as points, of the walls' corners at the mouth."""
+    points = [(item.body.position.x, item.body.position.y) for item in items] + [
+        (0.0, 0.0),
+        (0.0, world.scene.shelf.width),
+    ]
+    return np.array(points), np.array([item.radius for item in items] + [0.0, 0.0]) + MARGIN
+
+
+def _boxes(world: World, back: FloatArray, pose: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Least and greatest x and y, ``(m, 2)`` each, of the arm's parts and what it holds, in the fingertip frame (m)."""
+    lower, upper = world.boxes
+    if world.held is None:
+        return lower, upper
+    item = world.items[world.held]
+    center = (np.array(item.body.position) - pose[:2]) @ back
+    return np.vstack([lower, center - item.radius]), np.vstack([upper, center + item.radius])
+
+
+def _first_hit(points: FloatArray, radii: FloatArray, lower: FloatArray, upper: FloatArray, way: FloatArray) -> float:
+    """The share of a way ``(2,)`` after which one of the boxes, grown by a radius, first holds a point."""
+    near = lower[:, None, :] - radii[None, :, None] - points
+    far = upper[:, None, :] + radii[None, :, None] - points
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one, two = -near / way, -far / way
+    inside = (near < 0.0) & (far > 0.0)
+    moves = way != 0.0
+    enter = np.where(moves, np.minimum(one, two), np.where(inside, -np.inf, np.inf)).max(axis=2)
+    leave = np.where(moves, np.maximum(one, two), np.inf).min(axis=2)
+    hits = (enter < leave) & (leave > 0.0)
+    return float(min(1.0, max(0.0, enter[hits].min(initial=1.0))))
+
+
+def _clear_of_walls(world: World, start: FloatArray, end: FloatArray) -> bool:
+    """Whether every corner of the arm stays between the walls, or before the mouth, all the way."""
+    corners = world.corners @ turn(float(start[2])).T
+    if world.held is not None:
+        item = world.items[world.held]
+        rim = np.array(item.body.position) - start[:2] + item.radius * np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
+        corners = np.vstack([corners, rim])
+    first, last = corners + start[:2], corners + end[:2]
+    return bool((_before(first) & _before(last) | _between(world, first) & _between(world, last)).all())
+
+
+def _before(points: FloatArray) -> NDArray[np.bool_]:
+    return points[:, 0] < -MARGIN
+
+
+def _between(world: World, points: FloatArray) -> NDArray[np.bool_]:
+    shelf = world.scene.shelf
+    across = (points[:, 1] > MARGIN) & (points[:, 1] < shelf.width - MARGIN)
+    return np.asarray(across & (points[:, 0] < shelf.depth - MARGIN))
+
+
+def stays_outside(world: World, start: FloatArray, end: FloatArray) -> bool:
+    """Whether an empty gripper stays, between two poses, before everything that may stand out of the mouth."""
+    reach = -max((item.radius for item in world.items.values()), default=0.0) - MARGIN
+    poses = start + np.linspace(0.0, 1.0, TURN_SAMPLES)[:, None] * (end - start)
+    x, y = world.corners.T
+    fronts = poses[:, :1] + np.cos(poses[:, 2:]) * x - np.sin(poses[:, 2:]) * y
+    return world.held is None and bool((fronts < reach).all())

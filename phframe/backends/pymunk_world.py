@@ -91,6 +91,8 @@ class World:
         tick: Steps since the motion began.
         touched: Arm contacts since the motion began: step, part of the arm, what it met, whether that is a wall.
         grip: Joints that hold the object in the hand.
+        corners: Of all parts of the arm ``(v, 2)`` as they lie now, in the fingertip frame (m).
+        boxes: Least and greatest x and y of each part ``(m, 2)``, in the fingertip frame (m).
     """
 
     scene: Scene
@@ -108,6 +110,15 @@ class World:
     tick: int = 0
     touched: list[tuple[int, str, str, bool]] = field(default_factory=list)
     grip: tuple[pymunk.Constraint, ...] = ()
+    corners: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
+    boxes: tuple[FloatArray, FloatArray] = field(default_factory=lambda: (np.empty((0, 2)), np.empty((0, 2))))
+
+    def measure_arm(self) -> None:
+        """Take the measures of the arm anew, after its fingers moved."""
+        shift = self.opening - self.min_opening
+        parts = [outline.vertices + [0.0, outline.side * shift / 2.0] for _, outline in self.arm.parts]
+        self.corners = np.vstack(parts)
+        self.boxes = np.array([part.min(axis=0) for part in parts]), np.array([part.max(axis=0) for part in parts])
 
 
 def build_world(
@@ -136,6 +147,7 @@ def build_world(
         shape.min_opening,
         shape.min_opening,
     )
+    world.measure_arm()
     for kind in (OBJECT, WALL):
         space.on_collision(ARM, kind, begin=note_contact, data=world)
     return world
