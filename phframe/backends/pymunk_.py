@@ -7,6 +7,7 @@ whose centre leaves the board at the mouth is spilled.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Annotated
 
 import numpy as np
@@ -14,8 +15,9 @@ from pydantic import Field
 
 from phframe.backends.pymunk_drive import Drive
 from phframe.backends.pymunk_gripper import hold, place_arm, set_opening
+from phframe.backends.pymunk_measures import take_measures
 from phframe.backends.pymunk_state import read_state
-from phframe.backends.pymunk_world import Surfaces, World, build_world
+from phframe.backends.pymunk_world import Model, Surfaces, World, build_world
 from phframe.core import GripperTrajectory, InputError, Motion, Options, Physics, Settle, State, Stop, Trajectory, Watch
 
 
@@ -58,7 +60,7 @@ class PymunkPhysics(Physics[PymunkOptions]):
             )
         if not np.isfinite(state.poses).all():
             raise InputError("a state holds poses that are not finite numbers")
-        self._world = world = self._build(state)
+        self._world = world = build_world(self.model, state)
         if state.arm is not None:
             place_arm(world, state.arm.gripper)
             set_opening(world, state.arm.opening)
@@ -67,12 +69,12 @@ class PymunkPhysics(Physics[PymunkOptions]):
             hold(world, world.items[state.held], world.command)
         return read_state(world)
 
-    def _build(self, state: State) -> World:
-        o = self.options
+    @cached_property
+    def model(self) -> Model:
+        """What all worlds that this object builds have in common."""
+        o, shape = self.options, self.arm.shape
         surfaces = Surfaces(o.object_friction, o.arm_friction)
-        return build_world(
-            self.scene, self.arm.shape, state, surfaces=surfaces, iterations=o.iterations, arm_mass=o.arm_mass
-        )
+        return Model(self.scene, shape, take_measures(shape), surfaces, o.iterations, o.arm_mass)
 
     def execute(
         self, trajectory: Trajectory, *, settle: Settle | None, stop: Stop | None = None, watch: Watch | None = None

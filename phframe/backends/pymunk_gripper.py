@@ -36,11 +36,9 @@ def set_opening(world: World, opening: float) -> None:
     """Put the fingers ``opening`` (m) apart."""
     if opening == world.opening:
         return
-    shift = opening - world.min_opening
+    shift = (opening - world.measures.min_opening) / 2.0
     for polygon, outline in world.arm.fingers:
-        polygon.unsafe_set_vertices(
-            [(float(x), float(y)) for x, y in outline.opened(opening - world.min_opening).vertices]
-        )
+        polygon.unsafe_set_vertices([(float(x), float(y) + outline.side * shift) for x, y in outline.vertices])
     world.opening = world.command = opening
 
 

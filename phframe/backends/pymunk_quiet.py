@@ -21,10 +21,11 @@ TURN_SAMPLES = 9
 
 def is_still(world: World) -> bool:
     """Whether no object moves at all, leaving out what is held."""
-    return all(
-        abs(body.velocity.x) < STILL and abs(body.velocity.y) < STILL and abs(body.angular_velocity) < STILL
-        for body in (item.body for item in world.items.values() if item.name != world.held)
-    )
+    for item in world.items.values():
+        x, y = item.body.velocity
+        if (abs(x) > STILL or abs(y) > STILL or abs(item.body.angular_velocity) > STILL) and item.name != world.held:
+            return False
+    return True
 
 
 def free_share(world: World, start: FloatArray, end: FloatArray) -> float:
@@ -42,16 +43,13 @@ def free_share(world: World, start: FloatArray, end: FloatArray) -> float:
 
 def _obstacles(world: World, items: list[Item]) -> tuple[FloatArray, FloatArray]:
     """Centres ``(k, 2)`` and radii ``(k,)`` of the objects and, as points, of the walls' corners at the mouth."""
-    points = [(item.body.position.x, item.body.position.y) for item in items] + [
-        (0.0, 0.0),
-        (0.0, world.scene.shelf.width),
-    ]
+    points = [*(item.body.position for item in items), (0.0, 0.0), (0.0, world.scene.shelf.width)]
     return np.array(points), np.array([item.radius for item in items] + [0.0, 0.0]) + MARGIN
 
 
 def _boxes(world: World, back: FloatArray, pose: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Least and greatest x and y, ``(m, 2)`` each, of the arm's parts and what it holds, in the fingertip frame (m)."""
-    lower, upper = world.boxes
+    lower, upper = world.measures.boxes_at(world.opening)
     if world.held is None:
         return lower, upper
     item = world.items[world.held]
@@ -75,7 +73,7 @@ def _first_hit(points: FloatArray, radii: FloatArray, lower: FloatArray, upper: 
 
 def _clear_of_walls(world: World, start: FloatArray, end: FloatArray) -> bool:
     """Whether every corner of the arm stays between the walls, or before the mouth, all the way."""
-    corners = world.corners @ turn(float(start[2])).T
+    corners = world.measures.corners_at(world.opening) @ turn(float(start[2])).T
     if world.held is not None:
         item = world.items[world.held]
         rim = np.array(item.body.position) - start[:2] + item.radius * np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
@@ -98,6 +96,6 @@ def stays_outside(world: World, start: FloatArray, end: FloatArray) -> bool:
     """Whether an empty gripper stays, between two poses, before everything that may stand out of the mouth."""
     reach = -max((item.radius for item in world.items.values()), default=0.0) - MARGIN
     poses = start + np.linspace(0.0, 1.0, TURN_SAMPLES)[:, None] * (end - start)
-    x, y = world.corners.T
+    x, y = world.measures.corners_at(world.opening).T
     fronts = poses[:, :1] + np.cos(poses[:, 2:]) * x - np.sin(poses[:, 2:]) * y
     return world.held is None and bool((fronts < reach).all())

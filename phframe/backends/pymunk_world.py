@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pymunk
 
+from phframe.backends.pymunk_measures import Measures
 from phframe.core import ArmShape, FloatArray, Outline, Scene, SceneObject, State, coulomb_with_board, yaw_of
 
 GRAVITY = 9.81
@@ -82,7 +83,7 @@ class World:
         arm: The arm.
         spilled: Last pose ``(7,)`` of what has left the board, by id.
         names: What each shape is called, of objects, walls and parts of the arm.
-        min_opening: Distance between the fingers when closed (m).
+        measures: Of the arm.
         opening: Distance between the fingers now (m).
         command: Distance they are told to have (m).
         held: Id of the object in the hand.
@@ -91,8 +92,6 @@ class World:
         tick: Steps since the motion began.
         touched: Arm contacts since the motion began: step, part of the arm, what it met, whether that is a wall.
         grip: Joints that hold the object in the hand.
-        corners: Of all parts of the arm ``(v, 2)`` as they lie now, in the fingertip frame (m).
-        boxes: Least and greatest x and y of each part ``(m, 2)``, in the fingertip frame (m).
     """
 
     scene: Scene
@@ -101,7 +100,7 @@ class World:
     arm: Arm
     spilled: dict[str, FloatArray]
     names: dict[pymunk.Shape, str]
-    min_opening: float
+    measures: Measures
     opening: float
     command: float
     held: str | None = None
@@ -110,23 +109,34 @@ class World:
     tick: int = 0
     touched: list[tuple[int, str, str, bool]] = field(default_factory=list)
     grip: tuple[pymunk.Constraint, ...] = ()
-    corners: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
-    boxes: tuple[FloatArray, FloatArray] = field(default_factory=lambda: (np.empty((0, 2)), np.empty((0, 2))))
-
-    def measure_arm(self) -> None:
-        """Take the measures of the arm anew, after its fingers moved."""
-        shift = self.opening - self.min_opening
-        parts = [outline.vertices + [0.0, outline.side * shift / 2.0] for _, outline in self.arm.parts]
-        self.corners = np.vstack(parts)
-        self.boxes = np.array([part.min(axis=0) for part in parts]), np.array([part.max(axis=0) for part in parts])
 
 
-def build_world(
-    scene: Scene, shape: ArmShape, state: State, *, surfaces: Surfaces, iterations: int, arm_mass: float
-) -> World:
+@dataclass(frozen=True, slots=True)
+class Model:
+    """What every world of one physics object has in common.
+
+    Attributes:
+        scene: What is modelled.
+        shape: Of the arm.
+        measures: Of the arm.
+        surfaces: Coefficients of friction.
+        iterations: Of the solver, per step.
+        arm_mass: Inertia of the arm as the world feels it (kg).
+    """
+
+    scene: Scene
+    shape: ArmShape
+    measures: Measures
+    surfaces: Surfaces
+    iterations: int
+    arm_mass: float
+
+
+def build_world(model: Model, state: State) -> World:
     """A new space that holds ``state``; always new, since a used one remembers what ran in it."""
+    scene, shape, surfaces = model.scene, model.shape, model.surfaces
     space = pymunk.Space()
-    space.iterations = iterations
+    space.iterations = model.iterations
     space.collision_slop = 1e-4
     walls = _add_walls(space, scene, surfaces)
     spilled = {scene.ids[row]: state.poses[row] for row in np.flatnonzero(~state.on_board)}
@@ -135,19 +145,9 @@ def build_world(
         for row, item in enumerate(scene.objects)
         if item.id not in spilled
     }
-    arm = _add_arm(space, shape, surfaces, arm_mass)
-    world = World(
-        scene,
-        space,
-        items,
-        arm,
-        spilled,
-        _names(walls, items, arm),
-        shape.min_opening,
-        shape.min_opening,
-        shape.min_opening,
-    )
-    world.measure_arm()
+    arm = _add_arm(space, shape, surfaces, model.arm_mass)
+    closed, names = shape.min_opening, _names(walls, items, arm)
+    world = World(scene, space, items, arm, spilled, names, model.measures, opening=closed, command=closed)
     for kind in (OBJECT, WALL):
         space.on_collision(ARM, kind, begin=note_contact, data=world)
     return world
@@ -158,7 +158,7 @@ def _names(walls: dict[pymunk.Shape, str], items: dict[str, Item], arm: Arm) -> 
     return {**walls, **objects, **{shape: outline.part for shape, outline in arm.parts}}
 
 
-def note_contact(arbiter: pymunk.Arbiter, space: pymunk.Space, world: World) -> None:
+def note_contact(arbiter: pymunk.Arbiter, _: pymunk.Space, world: World) -> None:
     """Write down that the arm touches something; the arm's shape comes first."""
     part, other = arbiter.shapes
     world.touched.append((world.tick, world.names[part], world.names[other], other.collision_type == WALL))

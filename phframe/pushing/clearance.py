@@ -66,7 +66,7 @@ def _stacked(polygons: Sequence[FloatArray]) -> FloatArray:
 
 def _normals(polygons: FloatArray) -> FloatArray:
     """Outward unit normals ``(m, v, 2)`` of counter-clockwise polygons; zero for an edge of no length."""
-    edges = np.roll(polygons, -1, axis=1) - polygons
-    lengths = np.linalg.norm(edges, axis=2, keepdims=True)
-    outward = np.stack([edges[..., 1], -edges[..., 0]], axis=2)
-    return np.asarray(np.divide(outward, lengths, out=np.zeros_like(outward), where=lengths > 0.0))
+    edges = np.concatenate([polygons[:, 1:], polygons[:, :1]], axis=1) - polygons
+    lengths = np.hypot(edges[..., 0], edges[..., 1])
+    lengths[lengths == 0.0] = 1.0
+    return np.stack([edges[..., 1] / lengths, -edges[..., 0] / lengths], axis=2)

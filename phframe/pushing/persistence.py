@@ -11,7 +11,7 @@ INSERTION_FACTOR = 1.1
 
 
 def usable_threshold(insertion_width: float, largest_radius: float) -> float:
-    """h (m): the distance between centres below which nothing can be inserted between two objects."""
+    """H (m): the distance between centres below which nothing can be inserted between two objects."""
     return INSERTION_FACTOR * insertion_width + 2.0 * largest_radius
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,14 +15,13 @@ from phframe.core import (
     FloatArray,
     GripperPath,
     Infeasible,
-    Outline,
     Phase,
     PhaseRule,
     Scene,
     State,
     turn,
 )
-from phframe.pushing.clearance import WallClearance
+from phframe.pushing.arm_view import ArmView
 from phframe.pushing.options import PushingOptions
 
 YAW_STEPS = tuple(math.radians(degrees) for degrees in (0, 5, -5, 10, -10, 15, -15))
@@ -49,15 +46,17 @@ def grasp_action(
     """
     radius = float(scene.radii[scene.target_index])
     least = Infeasible(f"the target is {2 * radius:g} m wide, too wide for a gripper that opens {arm.max_opening:g} m")
-    for (past, clearance), deviation in product(FITS, YAW_STEPS):
+    for past, clearance in FITS:
         opening = 2.0 * (radius + clearance)
         if opening > arm.max_opening:
             continue
-        reach = _Reach(scene, state, corridor.angle + deviation, arm.outlines(opening), past)
-        obstruction = reach.obstruction()
-        if obstruction is None:
-            return reach.action(opening, radius, arm.min_opening, options)
-        least = min(obstruction, least, key=_severity)
+        view = ArmView(scene.shelf, arm.outlines(opening), NEIGHBOUR_CLEARANCE)
+        for deviation in YAW_STEPS:
+            reach = _Reach(scene, state, corridor.angle + deviation, view, past)
+            obstruction = reach.obstruction()
+            if obstruction is None:
+                return reach.action(opening, radius, arm.min_opening, options)
+            least = min(obstruction, least, key=_severity)
     return least
 
 
@@ -69,18 +68,19 @@ def _severity(obstruction: Infeasible) -> tuple[bool, int]:
 class _Reach:
     """A straight reach at one yaw."""
 
-    def __init__(self, scene: Scene, state: State, yaw: float, outlines: Sequence[Outline], past: float) -> None:
-        self._scene, self._state, self._yaw, self._outlines = scene, state, yaw, outlines
+    def __init__(self, scene: Scene, state: State, yaw: float, view: ArmView, past: float) -> None:
+        self._scene, self._state, self._yaw = scene, state, yaw
+        self._view, self._boxes = view, view.boxes
         self._target = state.positions[scene.target_index]
         self._ahead = np.array([math.cos(yaw), math.sin(yaw)])
         self._tip = self._target + past * self._ahead
-        front = max(float((outline.vertices @ turn(yaw).T)[:, 0].max()) for outline in outlines)
+        front = view.silhouette(yaw).front
         self._length = (float(self._tip[0]) + front + MOUTH_CLEARANCE) / self._ahead[0]
 
     def obstruction(self) -> Infeasible | None:
         """What is in the way: walls, or the objects by name."""
         start = self._tip - self._length * self._ahead
-        walls = WallClearance(self._scene.shelf, self._outlines, self._yaw, NEIGHBOUR_CLEARANCE)
+        walls = self._view.walls(self._yaw)
         if walls.travel(start, self._ahead, self._length) < self._length:
             return Infeasible(f"grasp blocked by a wall at yaw {math.degrees(self._yaw):.0f} degrees")
         blockers = tuple(self._scene.ids[row] for row in np.flatnonzero(self._blocked()))
@@ -89,12 +89,10 @@ class _Reach:
     def _blocked(self) -> NDArray[np.bool_]:
         """Mask ``(n,)`` of the objects that the arm would touch on its way in."""
         local = (self._state.positions - self._tip) @ turn(self._yaw)
-        reach = self._scene.radii + NEIGHBOUR_CLEARANCE
-        hit = np.zeros(len(local), dtype=bool)
-        for outline in self._outlines:
-            hit |= _distance(local, outline.vertices, self._length) < reach
-        hit[self._scene.target_index] = False
-        return hit & self._state.on_board
+        lower, upper = self._boxes
+        distance = _distance(local, lower, upper, self._length).min(axis=0)
+        distance[self._scene.target_index] = np.inf
+        return (distance < self._scene.radii + NEIGHBOUR_CLEARANCE) & self._state.on_board
 
     def action(self, opening: float, radius: float, closed: float, options: PushingOptions) -> Action:
         """Reach, close the fingers, draw straight out until the whole target is well outside the mouth."""
@@ -111,12 +109,14 @@ class _Reach:
         return Action(f"grasp {self._scene.target}", path, (self._scene.target,))
 
 
-def _distance(points: FloatArray, vertices: FloatArray, length: float) -> FloatArray:
-    """Distances ``(n,)`` of points from the region that an outline covers on a straight way in of a length (m).
+def _distance(points: FloatArray, lower: FloatArray, upper: FloatArray, length: float) -> FloatArray:
+    """Distances ``(m, n)`` of points from the regions that parts of the arm cover on a straight way in of a length (m).
 
-    The region is bounded by the box around the outline, drawn back along the way: outlines are convex and narrow ahead,
-    so the box is a close and safe bound.
+    A region is bounded by the box around the part, drawn back along the way: parts are convex and narrow ahead, so the
+    box is a close and safe bound.
     """
-    lower, upper = vertices.min(axis=0), vertices.max(axis=0)
-    outside = np.maximum(np.maximum(lower - [length, 0.0] - points, points - upper), 0.0)
-    return np.asarray(np.hypot(outside[:, 0], outside[:, 1]))
+    ahead, across = (
+        np.maximum(np.maximum(low[:, None] - points[:, axis], points[:, axis] - high[:, None]), 0.0)
+        for axis, low, high in ((0, lower[:, 0] - length, upper[:, 0]), (1, lower[:, 1], upper[:, 1]))
+    )
+    return np.asarray(np.hypot(ahead, across))

@@ -20,7 +20,7 @@ class Silhouette:
     def __init__(self, outlines: Sequence[Outline], tilt: float) -> None:
         polygons = [outline.vertices @ turn(tilt).T for outline in outlines]
         self._starts = np.concatenate(polygons)
-        self._ends = np.concatenate([np.roll(polygon, -1, axis=0) for polygon in polygons])
+        self._ends = np.concatenate([np.vstack([polygon[1:], polygon[:1]]) for polygon in polygons])
         self.front = float(self._starts[:, 0].max())
 
     def side(self, depths: FloatArray, direction: int) -> FloatArray:

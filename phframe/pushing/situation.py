@@ -19,12 +19,16 @@ from phframe.core import (
     State,
     Task,
 )
+from phframe.pushing.arm_view import ArmView
 from phframe.pushing.corridor import corridor_half_width, find_corridor
 from phframe.pushing.grouping import closest_component
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_threshold
 from phframe.pushing.push import push_action
 from phframe.pushing.sweep import SweepGeometry
+
+WALL_CLEARANCE = 0.002
+"""Kept between the arm and the walls (m)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +60,7 @@ class Pushing:
         self.task, self.options = task, options
         self._half_width = corridor_half_width(options.half_width, task.scene, task.arm)
         self._radii = task.scene.radii
+        self._view = ArmView(task.scene.shelf, task.arm.closed, WALL_CLEARANCE)
         obstacles = np.delete(self._radii, task.scene.target_index)
         self.threshold = usable_threshold(options.insertion_width, float(obstacles.max(initial=0.0)))
 
@@ -123,6 +128,5 @@ class Pushing:
             situation.local[chosen],
             float(self._radii[situation.members[chosen]].max()),
             float(self._radii[scene.target_index]),
-            scene.shelf,
-            self.task.arm,
+            self._view,
         )

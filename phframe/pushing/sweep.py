@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from phframe.core import ArmShape, Corridor, FloatArray, Shelf
+from phframe.core import Corridor, FloatArray
+from phframe.pushing.arm_view import ArmView
 from phframe.pushing.choice import Choice
 from phframe.pushing.grouping import bounding_rectangle
 from phframe.pushing.tilted_sweep import Choices, Component, Direction, Push, TiltedSweep
@@ -24,14 +25,13 @@ class SweepGeometry:
         members: Centres ``(k, 2)`` of the component in the corridor frame (m).
         radius: The largest radius among them (m).
         target_radius: Of the target (m).
-        shelf: The shelf.
-        arm: Of which the closed outlines count.
+        view: The arm in the shelf, fingers closed.
     """
 
     def __init__(
-        self, corridor: Corridor, members: FloatArray, radius: float, target_radius: float, shelf: Shelf, arm: ArmShape
+        self, corridor: Corridor, members: FloatArray, radius: float, target_radius: float, view: ArmView
     ) -> None:
-        self._corridor, self._shelf, self._outlines = corridor, shelf, arm.closed
+        self._corridor, self._shelf, self._view = corridor, view.shelf, view
         self._radius, self._target_radius = radius, target_radius
         self.rectangle = bounding_rectangle(members)
         self._component = Component(members, self.rectangle, radius)
@@ -39,18 +39,18 @@ class SweepGeometry:
     def pushes(self) -> Iterator[Push]:
         """The sweeps that fit, best first.
 
-        Those that clear come before those that do not, the paper's direction before the other, less tilt before more.
+        In each direction, the paper's before the other, the one that clears with the least tilt; then those that fit at
+        the least tilt but do not clear.
         """
         direction, choices = self._direction()
         other: Direction = -1 if direction == 1 else 1
-        not_clearing: list[Push] = []
+        second_best: list[Push] = []
         for way, settled in ((direction, choices), (other, (*choices, Choice.OTHER_DIRECTION))):
-            for push in self._tilted(way, settled):
-                if push.clears:
-                    yield push
-                    break
-                not_clearing.append(push)
-        yield from not_clearing
+            pushes = list(_until_one_clears(self._tilted(way, settled)))
+            if pushes and pushes[-1].clears:
+                yield pushes[-1]
+            second_best += [push for push in pushes[:1] if not push.clears]
+        yield from second_best
 
     def _tilted(self, direction: Direction, choices: Choices) -> Iterator[Push]:
         for tilt in TILTS:
@@ -58,8 +58,7 @@ class SweepGeometry:
             sweep = TiltedSweep(
                 self._corridor,
                 self._component,
-                self._shelf,
-                self._outlines,
+                self._view,
                 self._target_radius,
                 direction=direction,
                 tilt=tilt,
@@ -83,3 +82,10 @@ class SweepGeometry:
     def _away_from_nearer_wall(self) -> Direction:
         center = self._corridor.to_shelf(self.rectangle.center)
         return 1 if center[1] <= self._shelf.width / 2.0 else -1
+
+
+def _until_one_clears(pushes: Iterator[Push]) -> Iterator[Push]:
+    for push in pushes:
+        yield push
+        if push.clears:
+            return

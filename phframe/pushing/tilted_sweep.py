@@ -8,10 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from phframe.core import Corridor, FloatArray, Outline, Rectangle, Shelf, Sweep
+from phframe.core import Corridor, FloatArray, Rectangle, Sweep
+from phframe.pushing.arm_view import ArmView
 from phframe.pushing.choice import Choice
-from phframe.pushing.clearance import WallClearance
-from phframe.pushing.silhouette import Silhouette
 
 Direction = Literal[1, -1]
 Choices = tuple[str, ...]
@@ -20,8 +19,6 @@ LANE_CLEARANCE = 0.005
 """Between the arm going in and the rectangle (m)."""
 TARGET_CLEARANCE = 1.2
 """The fingertip comes no nearer to the target's centre than this many radii."""
-WALL_CLEARANCE = 0.002
-"""Between the arm and the walls (m)."""
 MOUTH_CLEARANCE = 0.05
 """How far before the mouth plane the arm starts and ends (m): an object standing in the mouth reaches out by less."""
 ENGAGEMENT = 0.9
@@ -68,8 +65,7 @@ class TiltedSweep:
     Args:
         corridor: The corridor.
         component: What is to be pushed.
-        shelf: The shelf.
-        outlines: Of the arm, fingers closed.
+        view: The arm in the shelf, fingers closed.
         target_radius: Of the target (m).
         direction: Of the push.
         tilt: Of the arm against the corridor (rad).
@@ -79,19 +75,18 @@ class TiltedSweep:
         self,
         corridor: Corridor,
         component: Component,
-        shelf: Shelf,
-        outlines: tuple[Outline, ...],
+        view: ArmView,
         target_radius: float,
         *,
         direction: Direction,
         tilt: float,
     ) -> None:
-        self._corridor, self._component, self._shelf = corridor, component, shelf
+        self._corridor, self._component, self._shelf = corridor, component, view.shelf
         self._direction, self._tilt = direction, tilt
         self._keep_off = TARGET_CLEARANCE * target_radius
-        self._arm = Silhouette(outlines, tilt)
-        self._outlines = outlines
-        self._walls = WallClearance(shelf, outlines, corridor.angle + tilt, WALL_CLEARANCE)
+        self._arm = view.silhouette(tilt)
+        self._front = view.silhouette(corridor.angle + tilt).front
+        self._walls = view.walls(corridor.angle + tilt)
 
     def push(self, choices: Choices) -> Push | None:
         """The sweep to the rectangle's far edge, or as far as the target allows; None where nothing would be touched.
@@ -179,7 +174,7 @@ class TiltedSweep:
         lengths = []
         for y in (lane, end):
             tip = self._corridor.to_shelf(np.array([depth, y]))
-            length = float(tip[0] + Silhouette(self._outlines, yaw).front + MOUTH_CLEARANCE) / ahead[0]
+            length = float(tip[0] + self._front + MOUTH_CLEARANCE) / ahead[0]
             if self._walls.travel(tip, -ahead, length) < length:
                 return None
             lengths.append(length)

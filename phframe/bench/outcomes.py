@@ -1,0 +1,111 @@
+"""How planners do on the published suites."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from statistics import mean, median
+
+from phframe.core import Condition, Corridor, Episode, Status
+from phframe.runtime.solve import solve
+
+REACHED = (Status.REACHED, Status.RETRIEVED)
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """One planner on one scene.
+
+    Attributes:
+        suite: Of the scene.
+        scene: Its name.
+        episode: What came of it.
+    """
+
+    suite: str
+    scene: str
+    episode: Episode
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """One planner on one suite.
+
+    Attributes:
+        planner: Its name.
+        suite: Its name.
+        scenes: How many.
+        cleared: In how many the corridor was empty in the end.
+        reached: In how many the gripper was at a grasp pose.
+        retrieved: In how many the target was drawn out.
+        clean: In how many of those nothing toppled or spilled and no wall was touched.
+        actions: Mean number of pushes, of the scenes that were retrieved.
+        planning_time: Median wall time (s).
+        execution_time: Median simulated time (s), of the scenes that were retrieved.
+    """
+
+    planner: str
+    suite: str
+    scenes: int
+    cleared: int
+    reached: int
+    retrieved: int
+    clean: int
+    actions: float
+    planning_time: float
+    execution_time: float
+
+
+def run_suite(planner: str, scenes: Sequence[str], tell: Callable[[str], None]) -> list[Outcome]:
+    """Solve every scene, each called ``suite/name``, with seed 0."""
+    outcomes = []
+    for name in scenes:
+        tell(f"{planner} {name}")
+        outcomes.append(Outcome(name.partition("/")[0], name, solve(name, planner=planner)))
+    return outcomes
+
+
+def tally(planner: str, suite: str, outcomes: Sequence[Outcome]) -> Tally:
+    """Sum up one suite."""
+    episodes = [outcome.episode for outcome in outcomes]
+    retrieved = [episode for episode in episodes if episode.status is Status.RETRIEVED]
+    return Tally(
+        planner,
+        suite,
+        scenes=len(episodes),
+        cleared=sum(map(is_cleared, episodes)),
+        reached=sum(episode.status in REACHED for episode in episodes),
+        retrieved=len(retrieved),
+        clean=sum(episode.clean for episode in episodes),
+        actions=mean([episode.pushes for episode in retrieved] or [0]),
+        planning_time=median(episode.cost.total for episode in episodes),
+        execution_time=median([episode.execution_time for episode in retrieved] or [0.0]),
+    )
+
+
+def is_cleared(episode: Episode) -> bool:
+    """Whether the corridor was empty in the end: in the world, or, where a failed plan was not executed, in the plan."""
+    if episode.status in (*REACHED, Status.CLEARED):
+        return True
+    plan = episode.plans[-1]
+    corridors = [decision.corridor for decision in plan.decisions if decision.corridor is not None]
+    return bool(plan.expected and corridors) and _is_empty(episode, corridors[-1])
+
+
+def _is_empty(episode: Episode, last: Corridor) -> bool:
+    """Whether nothing stands in the strip, drawn anew to where the target is."""
+    from phframe.pushing.corridor import find_corridor
+
+    state, scene = episode.plans[-1].expected[-1], episode.scene
+    corridor = find_corridor(state.positions[scene.target_index], scene.shelf, last.half_width)
+    if not isinstance(corridor, Corridor):
+        return False
+    inside = corridor.contains(state.positions) & state.on_board
+    inside[scene.target_index] = False
+    return not inside.any() and state.conditions[scene.target_index] is Condition.UPRIGHT
+
+
+def choices(outcomes: Sequence[Outcome]) -> Counter[str]:
+    """How often phframe's settlements of what the paper leaves open were used, over all last plans."""
+    return sum((outcome.episode.plans[-1].choices for outcome in outcomes), Counter())

@@ -1,0 +1,141 @@
+"""What planning costs beside a bare engine loop that takes the same bodies through the same motions."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pymunk
+
+from phframe.backends.pymunk_ import PymunkPhysics
+from phframe.backends.pymunk_gripper import place_arm
+from phframe.backends.pymunk_world import World, build_world
+from phframe.core import Action, Plan, Planner, State, TopologyEngine, Transition
+from phframe.registry import Kind, create
+from phframe.runtime.planning_world import PlanningWorld
+from phframe.runtime.scenes import find_scene
+from phframe.runtime.world import WorldSpec
+
+REPEATS = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Overhead:
+    """One scene.
+
+    Attributes:
+        scene: Its name.
+        planning: Wall time of planning (s), the least of some repeats.
+        bare: Wall time of the bare loop over all motions that were simulated, from end to end (s), likewise.
+        bare_stepped: Of the bare loop over as many steps as planning really took (s): it passes over what is free.
+        steps: Steps of those motions.
+        stepped: Steps that planning really took.
+    """
+
+    scene: str
+    planning: float
+    bare: float
+    bare_stepped: float
+    steps: int
+    stepped: int
+
+    @property
+    def ratio(self) -> float:
+        """Planning over the bare loop that simulates the same motions."""
+        return self.planning / self.bare
+
+    @property
+    def strict_ratio(self) -> float:
+        """Planning over the bare loop that takes only the steps that planning took."""
+        return self.planning / self.bare_stepped
+
+
+def measure(name: str, planner_name: str = "phia") -> Overhead:
+    """Plan a scene again and again, and do with bare pymunk what planning did with it."""
+    planner, topology = create(Kind.PLANNER, planner_name), create(Kind.TOPOLOGY, "ripser")
+    with PlanningWorld(WorldSpec(find_scene(name))) as world:
+        applied: list[tuple[State, Action]] = []
+        _plan(world, planner, topology, _noting(world, applied))
+        stepped = _count_steps(lambda: _plan(world, planner, topology, world.apply))
+        planning, bare, steps = np.inf, np.inf, 0
+        for _ in range(REPEATS):
+            planning = min(planning, _plan(world, planner, topology, world.apply).cost.total)
+            seconds, steps = _bare(world, applied)
+            bare = min(bare, seconds)
+    return Overhead(name, planning, bare, bare * stepped / max(steps, 1), steps, stepped)
+
+
+def _plan(
+    world: PlanningWorld,
+    planner: Planner[Any],
+    topology: TopologyEngine[Any],
+    apply: Callable[[State, Action], Transition],
+) -> Plan:
+    task = world.task(world.scene.initial_state(), topology, np.random.default_rng(0))
+    task._apply = apply
+    return planner.plan(task)
+
+
+def _noting(world: PlanningWorld, applied: list[tuple[State, Action]]) -> Callable[[State, Action], Transition]:
+    def apply(state: State, action: Action) -> Transition:
+        applied.append((state, action))
+        return world.apply(state, action)
+
+    return apply
+
+
+def _count_steps(work: Callable[[], object]) -> int:
+    """How often pymunk is stepped."""
+    count, step = 0, pymunk.Space.step
+
+    def counting(space: pymunk.Space, dt: float) -> None:
+        nonlocal count
+        count += 1
+        step(space, dt)
+
+    pymunk.Space.step = counting  # type: ignore[method-assign, assignment]
+    try:
+        work()
+    finally:
+        pymunk.Space.step = step  # type: ignore[method-assign]
+    return count
+
+
+def _bare(world: PlanningWorld, applied: Sequence[tuple[State, Action]]) -> tuple[float, int]:
+    """Seconds and steps of a loop that does nothing but step; building the spaces is not counted."""
+    physics: PymunkPhysics = world.physics  # type: ignore[assignment]
+    seconds, steps, step = 0.0, 0, physics.options.step
+    for state, action in applied:
+        built = build_world(physics.model, state)
+        legs = _legs(world, state, action, step)
+        place_arm(built, action.path.poses[0])
+        built.arm.drive.max_force = world.arm.force_limit
+        seconds += _loop(built, legs, step)
+        steps += sum(count for _, count in legs)
+    return seconds, steps
+
+
+def _legs(world: PlanningWorld, state: State, action: Action, step: float) -> list[tuple[tuple[float, float], int]]:
+    """Velocity (m/s) and number of steps of each leg of the action's own path, without the approach."""
+    trajectory: Any = world.lift(state, action)
+    first = len(trajectory.phases) - len(action.path.phases)
+    spans = np.diff(trajectory.times)[first:]
+    ways = np.diff(trajectory.poses[:, :2], axis=0)[first:]
+    return [
+        ((float(way[0] / span), float(way[1] / span)), round(span / step))
+        for way, span in zip(ways, spans, strict=True)
+        if span > 0.0
+    ]
+
+
+def _loop(built: World, legs: Sequence[tuple[tuple[float, float], int]], dt: float) -> float:
+    step, arm = built.space.step, built.arm
+    began = time.perf_counter()
+    for velocity, count in legs:
+        arm.carrier.velocity = arm.body.velocity = velocity
+        for _ in range(count):
+            step(dt)
+    return time.perf_counter() - began
