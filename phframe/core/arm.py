@@ -39,7 +39,7 @@ class Outline(Value):
 
     def opened(self, distance: float) -> Outline:
         """The outline as it lies with the fingers ``distance`` (m) farther apart than closed."""
-        return replace(self, vertices=self.vertices + [0.0, self.side * distance / 2.0])
+        return replace(self, vertices=self.vertices + np.array([0.0, self.side * distance / 2.0]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +160,7 @@ class ArmModel(ABC, Generic[OptionsT]):
 
     @abstractmethod
     def inverse(self, pose: ArrayLike, seed: ArrayLike | None = None) -> FloatArray | None:
-        """Joint values ``(dof,)`` within limits that put the fingertip at ``pose`` ``(7,)``, near ``seed``; None: there are none."""
+        """Joint values ``(dof,)`` within limits that put the fingertip at ``pose`` ``(7,)``, near ``seed``, or None."""
 
     @abstractmethod
     def default_mount(self, shelf: Shelf) -> Mount:

@@ -122,7 +122,7 @@ class Physics(ABC, Generic[OptionsT]):
         state: State,
         trajectory: Trajectory,
         *,
-        settle: Settle | None = Settle(),  # noqa: B008 - immutable
+        settle: Settle | None = Settle(),
         stop: Stop | None = None,
         watch: Watch | None = None,
     ) -> Transition:

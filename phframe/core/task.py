@@ -57,7 +57,7 @@ class Task:
         apply: Callable[[State, Action], Transition],
         rng: np.random.Generator,
         apply_many: Callable[[Sequence[Pair]], Iterable[Transition]] | None = None,
-        budget: Budget = Budget(),  # noqa: B008 - immutable
+        budget: Budget = Budget(),
         rejected: tuple[Action, ...] = (),
     ) -> None:
         self.scene, self.start, self.arm = scene, start, arm

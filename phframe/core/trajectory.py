@@ -84,7 +84,8 @@ class JointTrajectory(Value):
         samples = len(self.gripper.times)
         if self.positions.ndim != 2 or len(self.positions) != samples or self.velocities.shape != self.positions.shape:
             raise InputError(
-                f"a joint trajectory of {samples} samples has positions {self.positions.shape} and velocities {self.velocities.shape}"
+                f"a joint trajectory of {samples} samples cannot have positions {self.positions.shape} "
+                f"and velocities {self.velocities.shape}"
             )
         if not (np.isfinite(self.positions).all() and np.isfinite(self.velocities).all()):
             raise InputError("a joint trajectory holds values that are not finite numbers")

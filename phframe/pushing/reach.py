@@ -92,7 +92,7 @@ class _Reach:
         lower, upper = self._boxes
         distance = _distance(local, lower, upper, self._length).min(axis=0)
         distance[self._scene.target_index] = np.inf
-        return (distance < self._scene.radii + NEIGHBOUR_CLEARANCE) & self._state.on_board
+        return np.asarray((distance < self._scene.radii + NEIGHBOUR_CLEARANCE) & self._state.on_board)
 
     def action(self, opening: float, radius: float, closed: float, options: PushingOptions) -> Action:
         """Reach, close the fingers, draw straight out until the whole target is well outside the mouth."""

@@ -53,7 +53,7 @@ class SweepGeometry:
         yield from second_best
 
     def _tilted(self, direction: Direction, choices: Choices) -> Iterator[Push]:
-        for tilt in TILTS:
+        for tilt in TILTS if self._has_room(direction) else TILTS[:1]:
             settled = (*choices, Choice.TILTED) if tilt else choices
             sweep = TiltedSweep(
                 self._corridor,
@@ -66,6 +66,13 @@ class SweepGeometry:
             push = sweep.push(settled)
             if push is not None:
                 yield push
+
+    def _has_room(self, direction: Direction) -> bool:
+        """Whether there is room for the members outside the corridor, at any tilt: if not, nothing clears."""
+        corridor, members = self._corridor, self._component.centers
+        edge = corridor.axis + direction * corridor.half_width
+        across = corridor.to_shelf(np.column_stack([members[:, 0], np.full(len(members), edge)]))[:, 1]
+        return bool(((across > self._radius) & (across < self._shelf.width - self._radius)).all())
 
     def _direction(self) -> tuple[Direction, Choices]:
         """The paper's: towards the side of the corridor's centre line on which the rectangle lies."""

@@ -112,6 +112,7 @@ class TiltedSweep:
         sides = self._arm.side(self._component.centers[:, 0] - depth, self._direction)
         wanted = (self._lane_past_target() if past_target else self._lane(depth), self._end(sides))
         lane, end = (min(max(y, limits[0]), limits[1]) for y in wanted)
+        end = self._direction * min(self._direction * end, self._room(sides))
         if (end - lane) * self._direction < SHORTEST_SWEEP:
             return None
         clamped = [(lane, wanted[0], Choice.LANE_CLAMPED), (end, wanted[1], Choice.SWEEP_CLAMPED)]
@@ -135,6 +136,13 @@ class TiltedSweep:
         """Where the leading side has reached the corridor's edge at the depth of every member."""
         edge = self._corridor.half_width + EDGE_SURPLUS
         return self._corridor.axis + self._direction * (edge - float(sides.min()))
+
+    def _room(self, sides: FloatArray) -> float:
+        """How far the fingertip can sweep, counted in the push's direction, before a member is squeezed against a wall (m)."""
+        corridor, radius = self._corridor, self._component.radius
+        wall = self._shelf.width - radius if self._direction * math.cos(corridor.angle) > 0.0 else radius
+        across = wall - corridor.to_shelf(np.column_stack([self._component.centers[:, 0], np.zeros(len(sides))]))[:, 1]
+        return float((self._direction * across / math.cos(corridor.angle) - radius - sides).min())
 
     def _touches(self, sweep: Sweep) -> bool:
         """Whether the fingertip gets far enough past the front of the nearest member to push it sideways."""
