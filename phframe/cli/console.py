@@ -27,7 +27,9 @@ def show(what: RenderableType) -> None:
     """The result, as a table or another picture of it."""
     from rich.console import Console
 
-    console = Console(file=sys.stdout, highlight=False, width=None if sys.stdout.isatty() else _columns())
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = _columns()
     with console.capture() as capture:
         console.print(what)
     emit("\n".join(line.rstrip() for line in capture.get().rstrip("\n").split("\n")))
@@ -37,7 +39,13 @@ def error_console() -> Console:
     """Standard error, for progress."""
     from rich.console import Console
 
-    return Console(file=sys.stderr, highlight=False)
+    return Console(stderr=True, highlight=False)
+
+
+def leave(stream: TextIO) -> None:
+    """Let what is still to be written to a stream that takes no more vanish."""
+    with open(os.devnull, "wb") as nowhere:  # noqa: PTH123 - os.devnull is no path on every system
+        os.dup2(nowhere.fileno(), stream.fileno())
 
 
 def _columns() -> int:
@@ -45,17 +53,22 @@ def _columns() -> int:
     return int(given) if given.isdigit() and int(given) > 0 else UNLIMITED
 
 
-def _write(stream: TextIO, text: str) -> None:
-    """A line; where nobody reads on (``phframe scenes | head -1``) it is dropped, and so is what follows."""
+def _write(stream: TextIO | None, text: str) -> None:
+    """Write a line; where nobody reads on (``phframe scenes | head -1``) it is dropped."""
+    if stream is None:  # closed from the beginning
+        return
+    encoding = stream.encoding or "utf-8"
     try:
-        encoding = stream.encoding or "utf-8"
         stream.write(text.encode(encoding, errors="replace").decode(encoding) + "\n")
         stream.flush()
     except BrokenPipeError:
         leave(stream)
+    except OSError as error:
+        leave(stream)
+        _complain(error)
 
 
-def leave(stream: TextIO) -> None:
-    """Let what is still to be written to a closed pipe vanish."""
-    with open(os.devnull, "wb") as nowhere:  # noqa: PTH123 - os.devnull is no path on every system
-        os.dup2(nowhere.fileno(), stream.fileno())
+def _complain(error: OSError) -> None:
+    from phframe.core.errors import InputError
+
+    raise InputError(f"cannot write the output: {(error.strerror or str(error)).lower()}") from None

@@ -6,6 +6,8 @@ import os
 import sys
 import tempfile
 import traceback
+from collections.abc import Sequence
+from difflib import get_close_matches
 from typing import Any
 
 from phframe.cli.console import leave, note
@@ -50,11 +52,15 @@ def _usage(error: Any) -> str:
     possible = getattr(error, "possibilities", None)
     text = error.message if possible else error.format_message()
     sentence = _in_a_line(text[:1].lower() + text[1:]).rstrip(".")
-    meant = f" Did you mean {min(possible, key=len)!r}?" if possible else ""
+    meant = f" Did you mean {_closest(error.option_name, possible)!r}?" if possible else ""
     context = getattr(error, "ctx", None)
     command = context.command_path if context else "phframe"
     end = "" if sentence.endswith("?") else "."
     return f"{sentence}{end}{meant} See '{command} --help'."
+
+
+def _closest(name: str, possible: Sequence[str]) -> str:
+    return (get_close_matches(name, possible, n=1, cutoff=0.0) or list(possible))[0]
 
 
 def _in_a_line(text: str) -> str:

@@ -23,10 +23,11 @@ class CommandGroup(TyperGroup):
 
     def main(self, args: Sequence[str] | None = None, *rest: Any, standalone_mode: bool = True, **extra: Any) -> Any:
         """Run a command and, standing alone, end the process with its exit code."""
+        extra["standalone_mode"] = False
         if not standalone_mode:
-            return super().main(args, *rest, standalone_mode=False, **extra)
+            return super().main(args, *rest, **extra)
         try:
-            result = super().main(args, *rest, standalone_mode=False, **extra)
+            result = super().main(args, *rest, **extra)
         except (KeyboardInterrupt, typer.Abort):
             result = ExitCode.INTERRUPTED
         except Exception as error:  # noqa: BLE001 - nobody is to see a traceback

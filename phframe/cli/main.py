@@ -26,28 +26,26 @@ app.command("solve", epilog="Example: phframe solve papallas/s01 --planner ooa -
 listings.add_to(app)
 
 
-def _print_version(wanted: bool) -> None:
-    if not wanted:
-        return
-    from importlib import metadata
-
-    try:
-        emit(f"phframe {metadata.version('phframe')}")
-    except metadata.PackageNotFoundError:
-        emit("phframe, run from its source tree without being installed")
-    raise typer.Exit
-
-
 @app.callback()
 def _top(
     context: typer.Context,
-    version: Annotated[
-        bool, typer.Option("--version", help="Show the version and exit.", callback=_print_version, is_eager=True)
-    ] = False,
+    version: Annotated[bool, typer.Option("--version", help="Show the version and exit.")] = False,
 ) -> None:
+    if version:
+        emit(_version())
+        raise typer.Exit(ExitCode.SUCCESS)
     if context.invoked_subcommand is None:
-        emit(context.get_help())
+        typer.echo(context.get_help())
         raise typer.Exit(ExitCode.BAD_INPUT)
+
+
+def _version() -> str:
+    from importlib import metadata
+
+    try:
+        return f"phframe {metadata.version('phframe')}"
+    except metadata.PackageNotFoundError:
+        return "phframe, run from its source tree without being installed"
 
 
 def main() -> None:

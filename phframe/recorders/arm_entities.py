@@ -29,11 +29,12 @@ def log_arm(stream: Stream, arm: ArmShape) -> None:
 
 def log_motion(stream: Stream, arm: ArmShape, frames: Frames, action: int) -> None:
     """Where the fingertip and the fingers are in every frame."""
-    heights = np.full(len(frames.times), arm.height)
-    place, turned = np.column_stack([frames.grippers[:, :2], heights]), _about_vertical(frames.grippers[:, 2])
     moving = changes(frames.grippers)
-    columns = rr.Transform3D.columns(translation=place[moving], quaternion=turned[moving])
-    for view in ("world", "top"):
+    place, yaw = frames.grippers[moving, :2], frames.grippers[moving, 2]
+    # At height 0 from the top: the viewer draws what stands higher in a 2D view aside from where it is.
+    for view, height in (("world", arm.height), ("top", 0.0)):
+        raised = np.column_stack([place, np.full(len(place), height)])
+        columns = rr.Transform3D.columns(translation=raised, quaternion=_about_vertical(yaw))
         stream.put_many(f"{view}/arm", frames.times[moving], action, columns)
     for outline in arm.closed:
         if outline.side:

@@ -26,6 +26,8 @@ def log_persistence(stream: Stream, decision: Decision) -> None:
     _log_bars(stream, ends, rows, [*persistent, *[False] * infinite])
     _log_ends(stream, finite[persistent], ends[: len(finite)][persistent], rows[: len(finite)][persistent])
     _log_radius(stream, decision.radius, span)
+    note = [] if len(ends) else ["nothing in the way"]
+    stream.put("persistence/note", _captions([[0.5, HEIGHT / 2]] * len(note), note, palette.CAPTION))
 
 
 def _lengths(decision: Decision) -> tuple[FloatArray, int]:

@@ -23,8 +23,7 @@ from phframe.recorders import (
 from phframe.recorders.blueprint import blueprint_for
 from phframe.recorders.frames import Frames, parked_arm
 from phframe.recorders.stream import Stream
-
-Observer = object
+from phframe.runtime.observer import Observer
 
 LOG = "story/log"
 PAGE = "story/decision"

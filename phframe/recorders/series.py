@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import rerun as rr
-from rerun.components import InterpolationMode
+from rerun.components import AggregationPolicy, InterpolationMode
 
 from phframe.core import Corridor, Decision, FloatArray, Plan, Scene, State, Step
 from phframe.recorders import palette
@@ -85,7 +85,9 @@ def deviation(expected: State, after: State) -> float:
 
 
 def _line(name: str, color: palette.Color, interpolation: InterpolationMode) -> rr.SeriesLines:
-    return rr.SeriesLines(names=name, colors=color, widths=1.5, interpolation_mode=interpolation)
+    return rr.SeriesLines(
+        names=name, colors=color, widths=1.5, interpolation_mode=interpolation, aggregation_policy=AggregationPolicy.Off
+    )
 
 
 def _points(name: str, color: palette.Color) -> rr.SeriesPoints:

@@ -58,7 +58,7 @@ def open_viewer(path: Path) -> subprocess.Popen[bytes]:
 
 def web_viewer_command(path: Path) -> str:
     """The line that shows a recording in a browser, at the address it prints."""
-    return f"rerun --serve-web {path}"
+    return f"{sys.executable} -m rerun --serve-web {path}"
 
 
 def _has_display() -> bool:

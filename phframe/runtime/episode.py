@@ -56,7 +56,7 @@ def run_episode(
     planning: PlanningWorld,
     execution: ExecutionWorld,
     setup: Setup,
-    loop: Loop = Loop(),  # noqa: B008 - immutable
+    loop: Loop = Loop(),
     observers: Sequence[Observer] = (),
 ) -> Episode:
     """Plan in one world and carry the plan out in another, which may be more real.

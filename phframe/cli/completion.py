@@ -1,0 +1,81 @@
+"""What the shell offers after Tab. Whatever goes wrong, it offers nothing and says nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import typer
+
+from phframe.cli.options import PARTS
+
+Offer = list[tuple[str, str]]
+
+
+def _names(kind: str) -> Callable[[str], Offer]:
+    def names(incomplete: str) -> Offer:
+        return _quietly(lambda: _registered(kind), incomplete)
+
+    return names
+
+
+planners = _names("planner")
+backends = _names("backend")
+arms = _names("arm")
+topology = _names("topology")
+suites = _names("scenes")
+
+
+def scenes(incomplete: str) -> Offer:
+    """The scenes of all suites, and scene files."""
+    if incomplete.startswith((".", "/", "~")):
+        return _quietly(lambda: _scene_files(incomplete), incomplete)
+    return _quietly(_scene_names, incomplete)
+
+
+def options(context: typer.Context, incomplete: str) -> Offer:
+    """The options of the planner given, and with a prefix those of the other parts."""
+    return _quietly(lambda: _option_keys(context), incomplete)
+
+
+def _quietly(offer: Callable[[], Iterable[tuple[str, str]]], incomplete: str) -> Offer:
+    try:
+        return [(name, summary) for name, summary in offer() if name.startswith(incomplete)]
+    except Exception:  # noqa: BLE001 - a message would end up in the middle of what is being typed
+        return []
+
+
+def _registered(kind: str) -> Offer:
+    from phframe.registry import Kind, catalogue
+
+    return [(entry.name, entry.extension.summary) for entry in catalogue().extensions(Kind(kind))]
+
+
+def _scene_names() -> Offer:
+    from phframe.cli.listing_data import scene_names
+    from phframe.registry import Kind, catalogue
+
+    entries = catalogue().extensions(Kind.SCENES)
+    return [(f"{entry.name}/{name}", entry.extension.summary) for entry in entries for name in scene_names(entry)]
+
+
+def _scene_files(incomplete: str) -> Offer:
+    folder = Path(incomplete if incomplete.endswith("/") else Path(incomplete).parent)
+    start = incomplete[: incomplete.rfind("/") + 1]
+    entries = sorted(folder.expanduser().iterdir())
+    folders = [(f"{start}{entry.name}/", "") for entry in entries if entry.is_dir()]
+    return folders + [(f"{start}{entry.name}", "") for entry in entries if entry.suffix in (".yaml", ".yml")]
+
+
+def _option_keys(context: typer.Context) -> Offer:
+    from phframe.cli.option_list import describe
+    from phframe.registry import Kind
+
+    asked = [(part, context.params.get(part)) for part in PARTS if part != "scenes"]
+    asked += [("scenes", suite) for suite, _ in _registered("scenes")]  # which one is not known before Enter
+    return [
+        (f"{'' if part == 'planner' else f'{part}.'}{each.key}=", each.description)
+        for part, spec in asked
+        if spec
+        for each in describe(Kind(part), spec).options
+    ]

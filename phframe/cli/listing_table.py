@@ -1,0 +1,61 @@
+"""The listings for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from phframe.cli.listing_data import BrokenItem, Item, Listing
+from phframe.cli.option_list import Description
+
+HOME = "phframe"
+
+
+def picture(what: Listing | Description) -> RenderableType:
+    """A listing or a description as tables."""
+    return _listing(what) if isinstance(what, Listing) else _description(what)
+
+
+def _listing(what: Listing) -> RenderableType:
+    table = _table(what.title, "what it is")
+    for item in what.items:
+        table.add_row(item.name, _summary(item))
+    return Group(table, *_broken(what.broken))
+
+
+def _summary(item: Item) -> Text:
+    text = Text(item.summary)
+    if item.distribution != HOME:
+        text.append(f" ({item.distribution} {item.version})".replace(" )", ")"), "dim")
+    if item.needs:
+        text.append(f"\nnot installed: it needs {item.needs}. {item.remedy}", "yellow")
+    if item.scenes:
+        text.append(f"\n{len(item.scenes)} listed: {', '.join(item.scenes)}", "cyan")
+    return text
+
+
+def _broken(broken: Iterable[BrokenItem]) -> list[Text]:
+    return [
+        Text(f"not loaded: {f'{each.distribution} {each.version}'.strip()}: {each.error}", "red") for each in broken
+    ]
+
+
+def _description(what: Description) -> RenderableType:
+    heading = Text.assemble((f"{what.kind} {what.name}", "bold"), f"\n{what.text}\n")
+    if not what.options:
+        return Group(heading, Text("It has no options."))
+    prefix = "" if what.kind == "planner" else f"{what.kind}."
+    table = _table("--option", "values", "default", "what it is")
+    for row in what.options:
+        table.add_row(f"{prefix}{row.key}", row.values, Text(str(row.default)), Text(row.description))
+    return Group(heading, table)
+
+
+def _table(*columns: str) -> Table:
+    table = Table(box=None, padding=(0, 2, 0, 0), header_style="dim")
+    for number, column in enumerate(columns):
+        table.add_column(column, no_wrap=number == 0, overflow="fold", style="bold" if number == 0 else "")
+    return table

@@ -1,0 +1,69 @@
+"""``phframe scenes | planners | backends | arms | topology``: what there is to choose from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated
+
+import typer
+
+from phframe.cli import completion
+
+_LISTINGS = {
+    "scenes": ("scenes", "suites of scenes, and their scenes", completion.suites, "scenes random"),
+    "planners": ("planner", "planners", completion.planners, "planners phia"),
+    "backends": ("backend", "physics backends", completion.backends, "backends --json"),
+    "arms": ("arm", "robot arms", completion.arms, "arms planar"),
+    "topology": ("topology", "engines that compute persistence diagrams", completion.topology, "topology"),
+}
+"""Command: the kind in the registry, what is listed, the completion of names, an example."""
+
+
+def add_to(app: typer.Typer) -> None:
+    """Add the listings to the command line."""
+    for title, (kind, what, complete, example) in _LISTINGS.items():
+        help_text = f"List the {what}.\n\nWith a NAME: describe one, and its options with their units and defaults."
+        command = _command(title, kind, complete)
+        app.command(title, help=help_text, epilog=f"Example: phframe {example}")(command)
+
+
+def _command(title: str, kind: str, complete: Callable[[str], list[tuple[str, str]]]) -> Callable[..., None]:
+    name_argument = typer.Argument(
+        metavar="[NAME]",
+        help="What to describe: a name in the list, or a class in a file, ./mine.py:Mine.",
+        autocompletion=complete,
+        show_default="the whole list",
+    )
+    json_option = typer.Option("--json", help="Print one JSON object instead of a table.")
+
+    def command(
+        name: Annotated[str | None, name_argument] = None, as_json: Annotated[bool, json_option] = False
+    ) -> None:
+        _print(title, kind, name, as_json=as_json)
+
+    # The annotations are texts, which typer could not look up in this function.
+    command.__annotations__ = {
+        "name": Annotated[str | None, name_argument],
+        "as_json": Annotated[bool, json_option],
+        "return": None,
+    }
+    return command
+
+
+def _print(title: str, kind: str, name: str | None, *, as_json: bool) -> None:
+    from phframe.cli.listing_data import listing
+    from phframe.cli.option_list import describe
+    from phframe.registry import Kind
+
+    what = listing(Kind(kind), title) if name is None else describe(Kind(kind), name)
+    if as_json:
+        import json
+
+        from phframe.cli.console import emit
+
+        emit(json.dumps(what.as_json()))
+    else:
+        from phframe.cli.console import show
+        from phframe.cli.listing_table import picture
+
+        show(picture(what))

@@ -1,0 +1,66 @@
+"""What ``solve`` is doing, on a terminal, once it has taken a second."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from threading import Timer
+
+from phframe.cli.console import error_console
+from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Step
+from phframe.runtime.observer import Observer
+
+AFTER = 1.0
+"""Seconds before anything is shown."""
+
+
+class Progress(Observer):
+    """A line on standard error that says what is being done; nothing where that is no terminal.
+
+    Args:
+        after: Seconds before it appears.
+    """
+
+    def __init__(self, after: float = AFTER) -> None:
+        self._console = error_console()
+        self._status = self._console.status("Loading the libraries")
+        self._timer = Timer(after, self._status.start)
+        self._timer.daemon = True
+        self._to_do, self._plans, self._done = 0, 0, 0
+
+    def start(self) -> None:
+        """Begin to count the seconds."""
+        if self._console.is_terminal:
+            self._timer.start()
+
+    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+        """The first plan is being made."""
+        self._status.update(f"Planning with {setup.planner} for {scene.name}")
+
+    def planned(self, plan: Plan) -> None:
+        """A plan is about to be carried out."""
+        self._plans += 1
+        self._to_do, self._done = len(plan.actions), 0
+        self._tell()
+
+    def stepped(self, step: Step, frames: Iterable[tuple[float, State]]) -> None:
+        """One more action was carried out."""
+        self._done += 1
+        self._tell()
+
+    def finished(self, episode: Episode) -> None:
+        """The files are being written."""
+        self._status.update("Writing the files")
+
+    def close(self) -> None:
+        """Take the line away."""
+        self._timer.cancel()
+        if self._timer.is_alive():
+            self._timer.join()
+        self._status.stop()
+
+    def _tell(self) -> None:
+        replans = f" (plan {self._plans})" if self._plans > 1 else ""
+        if self._done < self._to_do:
+            self._status.update(f"Carrying out action {self._done + 1} of {self._to_do}{replans}")
+        else:
+            self._status.update("Looking at the result")

@@ -1,0 +1,87 @@
+"""The recording of a run: its file is made in the run's directory when the episode begins."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from phframe.cli.console import note
+from phframe.cli.run_directory import RunDirectory
+from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Step
+from phframe.core.errors import NotInstalledError, PluginError
+from phframe.runtime.observer import Observer
+
+RECORDING = "recording.rrd"
+RecorderType = Callable[[Path], Observer]
+
+
+class RunFiles(Observer):
+    """Makes the run's directory when the episode begins, and hands everything on to a recorder in it.
+
+    Args:
+        directory: Where.
+        recorder_type: Given a file, the recorder that writes it; None: nothing is recorded.
+    """
+
+    def __init__(self, directory: RunDirectory, recorder_type: RecorderType | None) -> None:
+        self._directory, self._recorder_type = directory, recorder_type
+        self._recorder: Observer | None = None
+        self.recording: Path | None = None
+
+    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+        """Make the directory, and the recording in it.
+
+        Raises:
+            InputError: If they cannot be written.
+        """
+        path = self._directory.make(scene.name, setup.planner)
+        if self._recorder_type is not None:
+            self._recorder = self._recorder_type(path / RECORDING)
+            self._recorder.begin(scene, setup, arm)
+            self.recording = path / RECORDING
+
+    def planned(self, plan: Plan) -> None:
+        """Hand it on."""
+        if self._recorder is not None:
+            self._recorder.planned(plan)
+
+    def stepped(self, step: Step, frames: Iterable[tuple[float, State]]) -> None:
+        """Hand it on."""
+        if self._recorder is not None:
+            self._recorder.stepped(step, frames)
+
+    def finished(self, episode: Episode) -> None:
+        """Hand it on."""
+        if self._recorder is not None:
+            self._recorder.finished(episode)
+
+    def close(self) -> None:
+        """End the recording."""
+        if self._recorder is not None:
+            self._recorder.close()
+
+
+def recorder_type(wanted: bool | None, *, quiet: bool) -> RecorderType | None:
+    """The recorder to use.
+
+    Args:
+        wanted: None: if it is installed, else with a hint.
+        quiet: Without a hint.
+
+    Raises:
+        NotInstalledError: If it is wanted and not installed.
+        PluginError: If it is wanted and does not load.
+    """
+    from phframe.registry import Kind, load
+
+    if wanted is False:
+        return None
+    try:
+        loaded: RecorderType = load(Kind.RECORDER, "rerun")
+    except (NotInstalledError, PluginError) as error:
+        if wanted:
+            raise
+        if not quiet:
+            note(f"hint: nothing is recorded: {' '.join(str(error).split())} (--no-rerun leaves this hint out)")
+        return None
+    return loaded

@@ -1,0 +1,97 @@
+"""The directory of one run: made only when there is something to put into it, and never one that is in use."""
+
+from __future__ import annotations
+
+import re
+from datetime import datetime
+from itertools import count
+from pathlib import Path
+
+from phframe.core.errors import InputError
+
+RUNS = Path("runs")
+_LONGEST = 40
+
+
+class RunDirectory:
+    """A directory for the files of one run.
+
+    Args:
+        asked: The directory; it must be new or empty. None: a new one in ``runs/``.
+
+    Raises:
+        InputError: If it exists and is not an empty directory.
+    """
+
+    def __init__(self, asked: Path | None) -> None:
+        self._asked = asked
+        self.path: Path | None = None
+        if asked is not None:
+            _check_free(asked)
+
+    def make(self, *names: str) -> Path:
+        """Make the directory.
+
+        Args:
+            names: What a new one is called after its time.
+
+        Raises:
+            InputError: If that is not possible.
+        """
+        wanted = self._asked or RUNS
+        try:
+            self.path = _make_new(RUNS, names) if self._asked is None else _make(self._asked)
+        except OSError as error:
+            raise cannot_write(wanted, error) from None
+        return self.path
+
+    def discard_if_empty(self) -> None:
+        """Leave nothing behind where nothing was written."""
+        if self.path is not None and self.path.is_dir() and not any(self.path.iterdir()):
+            self.path.rmdir()
+            self.path = None
+
+
+def cannot_write(path: Path, error: OSError) -> InputError:
+    """The error for people when a file or directory cannot be written."""
+    reason = error.strerror or str(error)
+    return InputError(
+        f"cannot write to {path}: {reason[:1].lower()}{reason[1:]}. Name another directory with --out DIR."
+    )
+
+
+def _check_free(path: Path) -> None:
+    try:
+        if path.exists() and not path.is_dir():
+            raise InputError(f"--out {path} is a file. Name a directory that is new or empty.")
+        if path.is_dir() and any(path.iterdir()):
+            raise InputError(
+                f"--out {path} is not empty, and nothing is overwritten. Name a new directory or empty it."
+            )
+    except (OSError, ValueError) as error:
+        raise cannot_write(path, error if isinstance(error, OSError) else OSError(str(error))) from None
+
+
+def _make(path: Path) -> Path:
+    path.mkdir(parents=True, exist_ok=True)
+    _check_free(path)
+    return path
+
+
+def _make_new(parent: Path, names: tuple[str, ...]) -> Path:
+    """A directory that was not there before: of two runs that start at the same moment, only one can make it."""
+    parent.mkdir(parents=True, exist_ok=True)
+    stem = "-".join([f"{datetime.now().astimezone():%Y%m%d-%H%M%S}", *map(_plain, names)])
+    for number in count(1):
+        path = parent / (stem if number == 1 else f"{stem}-{number}")
+        try:
+            path.mkdir()
+        except FileExistsError:
+            continue
+        return path
+    raise AssertionError("unreachable: count() does not end")
+
+
+def _plain(name: str) -> str:
+    """A name without what a path cannot hold."""
+    return re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")[-_LONGEST:].strip("-") or "unnamed"

@@ -1,0 +1,172 @@
+"""``phframe solve``: what can be asked for. What is done with it is in ``run``."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from phframe.cli import completion
+from phframe.cli.options import parse_options
+from phframe.cli.request import Request
+
+
+def _finite(value: float) -> float:
+    if not math.isfinite(value):
+        raise typer.BadParameter(f"{value} is not a finite number.")
+    return value
+
+
+SceneSpec = Annotated[
+    str,
+    typer.Argument(
+        metavar="SCENE",
+        help="A scene such as vieira/basic ('phframe scenes' lists them), or a scene file such as ./shelf.yaml.",
+        autocompletion=completion.scenes,
+    ),
+]
+PlannerSpec = Annotated[
+    str,
+    typer.Option(
+        "--planner",
+        metavar="NAME",
+        help="Who plans the pushes: a name ('phframe planners' lists them) or a class in a file, ./mine.py:Mine.",
+        autocompletion=completion.planners,
+    ),
+]
+BackendSpec = Annotated[
+    str,
+    typer.Option(
+        "--backend",
+        metavar="NAME",
+        help="The physics to plan and act in: a name ('phframe backends') or ./mine.py:Mine.",
+        autocompletion=completion.backends,
+    ),
+]
+ArmSpec = Annotated[
+    str,
+    typer.Option(
+        "--arm",
+        metavar="NAME",
+        help="The robot arm: a name ('phframe arms') or ./mine.py:Mine.",
+        autocompletion=completion.arms,
+    ),
+]
+TopologySpec = Annotated[
+    str,
+    typer.Option(
+        "--topology",
+        metavar="NAME",
+        help="What computes persistence diagrams: a name ('phframe topology') or ./mine.py:Mine.",
+        autocompletion=completion.topology,
+    ),
+]
+Seed = Annotated[
+    int,
+    typer.Option("--seed", metavar="INTEGER", min=0, help="Seed of everything random; the same seed, the same result."),
+]
+OptionTexts = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--option",
+        metavar="KEY=VALUE",
+        help="An option of the planner, or with a prefix of another part: margin=0.02, backend.step=0.002, "
+        "arm.link_width=0.1, topology.KEY, scenes.count=12. Repeatable. 'phframe planners NAME' and so on list them.",
+        autocompletion=completion.options,
+    ),
+]
+TimeLimit = Annotated[
+    float,
+    typer.Option(
+        "--time-limit",
+        metavar="SECONDS",
+        min=0.001,
+        callback=_finite,
+        help="Longest planning time, all replans together (wall time, s).",
+    ),
+]
+MaxReplans = Annotated[
+    int,
+    typer.Option(
+        "--max-replans", metavar="INTEGER", min=0, help="How often to plan anew when reality differs from the plan."
+    ),
+]
+Tolerance = Annotated[
+    float,
+    typer.Option(
+        "--tolerance",
+        metavar="METRES",
+        min=0.0,
+        callback=_finite,
+        help="How far an object may be from where the plan expected it before planning anew (m).",
+    ),
+]
+Out = Annotated[
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="DIR",
+        help="Directory for episode.json, summary.json and recording.rrd; it must be new or empty.",
+        show_default="a new one in runs/",
+    ),
+]
+Rerun = Annotated[
+    bool | None,
+    typer.Option(
+        "--rerun/--no-rerun",
+        help="Record the episode for the Rerun viewer.",
+        show_default="--rerun where rerun-sdk is installed",
+    ),
+]
+View = Annotated[bool, typer.Option("--view", help="Open the recording in the Rerun viewer, too.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object instead of a table.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progress, no hints; errors remain.")]
+
+
+def solve(
+    scene: SceneSpec = "vieira/basic",
+    planner: PlannerSpec = "phia",
+    backend: BackendSpec = "pymunk",
+    arm: ArmSpec = "planar",
+    topology: TopologySpec = "ripser",
+    seed: Seed = 0,
+    option: OptionTexts = None,
+    time_limit: TimeLimit = 300.0,
+    max_replans: MaxReplans = 5,
+    tolerance: Tolerance = 0.01,
+    out: Out = None,
+    rerun: Rerun = None,
+    view: View = False,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Retrieve the target of a scene: plan, carry out, record.
+
+    Exit code 0: retrieved; 1: not retrieved; 2: bad input; 3: something not installed; 130: Ctrl-C.
+    """
+    if view and rerun is False:
+        raise typer.BadParameter(
+            "there is nothing to view without a recording. Leave out --no-rerun.", param_hint="--view"
+        )
+    request = Request(
+        scene=scene,
+        planner=planner,
+        backend=backend,
+        arm=arm,
+        topology=topology,
+        seed=seed,
+        options=parse_options(option or ()),
+        time_limit=time_limit,
+        max_replans=max_replans,
+        tolerance=tolerance,
+        out=out,
+        record=True if view else rerun,
+        view=view,
+        as_json=as_json,
+        quiet=quiet,
+    )
+    from phframe.cli.run import run  # heavy, and not needed where the request is wrong
+
+    raise typer.Exit(run(request))

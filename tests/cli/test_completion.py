@@ -1,0 +1,32 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from phframe.cli import completion
+from tests.cli.conftest import Run
+
+
+def test_names_come_from_the_registry() -> None:
+    assert [name for name, _ in completion.planners("p")] == ["phia"]
+    assert [name for name, _ in completion.topology("")] == ["ripser", "single-linkage"]
+    assert completion.backends("nothing") == []
+
+
+def test_scenes_and_scene_files() -> None:
+    assert [name for name, _ in completion.scenes("vieira/b")] == ["vieira/basic"]
+    Path("shelves").mkdir()
+    for name in ("one.yaml", "two.yml", "three.txt"):
+        Path("shelves", name).write_text("")
+    assert [name for name, _ in completion.scenes("./s")] == ["./shelves/"]
+    assert [name for name, _ in completion.scenes("./shelves/")] == ["./shelves/one.yaml", "./shelves/two.yml"]
+    assert completion.scenes("./nowhere/") == []
+
+
+@pytest.mark.slow
+def test_the_shell_is_offered_names_and_options(run: Run) -> None:
+    words = "phframe solve random/0 --planner ooa --option "
+    done = run(_PHFRAME_COMPLETE="complete_bash", COMP_WORDS=words, COMP_CWORD="6")
+    assert {"margin=", "arm.link_width=", "scenes.count="} <= set(done.stdout.split())
+    assert done.stderr == ""

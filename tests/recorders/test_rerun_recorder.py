@@ -1,0 +1,271 @@
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("rerun")
+
+import rerun as rr
+
+from phframe.core import Condition, InputError, State
+from phframe.recorders import palette
+from phframe.recorders.rerun_ import RerunRecorder
+from tests.recorders.reading import Recording
+from tests.recorders.synthetic_episode import SCENE, SETUP, Recorded, hand_made
+
+pytestmark = pytest.mark.needs_rerun
+
+
+@pytest.fixture(scope="module")
+def made() -> Recorded:
+    return hand_made()
+
+
+def record(made: Recorded, path: Path) -> None:
+    recorder, episode = RerunRecorder(path), made.episode
+    recorder.begin(episode.scene, episode.setup, made.arm)
+    recorder.planned(episode.plans[0])
+    recorder.stepped(episode.steps[0], made.frames[0])
+    recorder.planned(episode.plans[1])
+    for step, frames in zip(episode.steps[1:], made.frames[1:], strict=True):
+        recorder.stepped(step, iter(frames))
+    recorder.finished(episode)
+    recorder.close()
+
+
+@pytest.fixture(scope="module")
+def recording(made: Recorded, tmp_path_factory: pytest.TempPathFactory) -> Recording:
+    path = tmp_path_factory.mktemp("recording") / "episode.rrd"
+    record(made, path)
+    assert path.stat().st_size < 1_000_000
+    return Recording(path)
+
+
+def packed(color: palette.Color) -> int:
+    return int.from_bytes(bytes(color))
+
+
+def test_two_timelines_and_no_other(recording: Recording) -> None:
+    assert recording.timelines == {"sim_time", "action"}
+
+
+def test_everything_there_is_to_see_has_an_entity(recording: Recording) -> None:
+    expected = {
+        *(f"/world/objects/{i}" for i in SCENE.ids),
+        *(f"/world/shelf/{part}" for part in ("board", "walls", "edges")),
+        *(f"/{view}/arm" for view in ("world", "top")),
+        "/world/arm/link",
+        "/world/arm/left\\ finger",
+        "/top/arm/palm/edge",
+        "/top/objects",
+        "/top/marks",
+        "/top/shelf/sides",
+        *(f"/world/decision/{part}" for part in ("corridor", "links", "rectangle", "sweep", "path")),
+        *(f"/top/decision/{part}" for part in ("corridor/area", "links", "rectangle", "sweep", "path", "expected")),
+        *(f"/persistence/{part}" for part in ("bars", "persistent", "radius", "scale")),
+        *(f"/numbers/{name}" for name in ("corridor/obstacles", "force/largest", "displacement/target")),
+        *(f"/numbers/{name}" for name in ("planning/total", "radius/chosen", "radius/persistent")),
+        "/story/log",
+        "/story/decision",
+    }
+    assert expected <= recording.entities
+
+
+def test_layout_is_explicit(recording: Recording) -> None:
+    assert recording.blueprints == 1
+    assert {"Shelf", "From the top", "Persistence", "Decision", "What happened and why"} <= recording.views
+    assert {"Obstacles in the corridor", "Contact force (N)", "Planning time (ms)"} <= recording.views
+
+
+def test_every_moving_object_is_where_the_frames_say(recording: Recording, made: Recorded) -> None:
+    rows = recording.rows("/world/objects/object_1", "translation")
+    first = {round(time, 6): state.poses[0, :3] for time, state in made.frames[0]}
+    compared = [
+        (place[0], first[round(time, 6)]) for time, action, place in rows if action == 1 and round(time, 6) in first
+    ]
+    assert len(compared) > 40
+    assert all(np.allclose(written, really, atol=1e-6) for written, really in compared)
+
+
+def test_what_stands_still_is_not_written_again_and_again(recording: Recording) -> None:
+    assert len(recording.rows("/world/objects/object_4", "translation")) == 4
+
+
+def test_actions_follow_each_other_in_time(recording: Recording, made: Recorded) -> None:
+    rows = recording.rows("/world/arm", "translation")
+    durations = [step.motion.duration for step in made.episode.steps]
+    assert [action for _, action, _ in rows] == sorted(action for _, action, _ in rows)
+    assert rows[-1][1] == 3
+    ends = [time for time, _, _ in recording.rows("/numbers/force/largest", "scalars")]
+    np.testing.assert_allclose(ends, [0.0, *np.cumsum(durations)], atol=1e-6)
+    for number, (begins, over) in enumerate(itertools.pairwise(ends), 1):
+        assert all(begins <= time <= over for time, action, _ in rows if action == number)
+
+
+def test_arm_ends_where_the_state_after_says(recording: Recording, made: Recorded) -> None:
+    arm = made.episode.final_state.arm
+    assert arm is not None
+    for view, height in (("world", made.arm.height), ("top", 0.0)):
+        place = recording.rows(f"/{view}/arm", "translation")[-1][2][0]
+        np.testing.assert_allclose(place, [*arm.gripper[:2], height], atol=1e-6)
+        aside = recording.rows(f"/{view}/arm/left\\ finger", "translation")[-1][2][0]
+        np.testing.assert_allclose(aside, [0.0, arm.opening / 2.0, 0.0], atol=1e-6)
+
+
+def test_members_take_the_colour_of_their_component(recording: Recording) -> None:
+    colors = {i: recording.rows(f"/world/objects/{i}", "colors") for i in SCENE.ids}
+    during = {i: next(value[0] for _, action, value in rows if action == 1) for i, rows in colors.items()}
+    first, second = palette.component_color(0), palette.component_color(1)
+    assert during["object_1"] == during["object_2"] == packed(first)
+    assert during["object_3"] == packed(second)
+    assert during["object_4"] == packed(palette.OBJECT)
+    assert during["mug"] == packed(palette.TARGET)
+
+
+def test_what_topples_turns_red_when_it_does(recording: Recording, made: Recorded) -> None:
+    rows = [
+        (time, value[0]) for time, action, value in recording.rows("/world/objects/object_3", "colors") if action == 2
+    ]
+    red = [time for time, color in rows if color == packed(palette.TOPPLED)]
+    began = made.episode.steps[0].motion.duration
+    falls = next(time for time, state in made.frames[1] if Condition.TOPPLED in state.conditions)
+    assert red
+    assert min(red) == pytest.approx(began + falls, abs=1e-6)
+    last = recording.rows("/world/objects/object_3", "colors")[-1]
+    assert last[2][0] == packed(palette.TOPPLED), "and stays so"
+
+
+def test_bars_of_a_decision_and_none_without(recording: Recording) -> None:
+    bars = {action: value for _, action, value in recording.rows("/persistence/bars", "strips")}
+    assert [len(bars[action]) for action in (1, 2, 3)] == [3, 1, 0]
+    captions = {action: value for _, action, value in recording.rows("/persistence/persistent", "labels")}
+    assert captions[1] == ["76", "152"]
+    chosen = {action: value for _, action, value in recording.rows("/persistence/radius/value", "labels")}
+    assert chosen[1] == ["chosen radius 76 mm"]
+    assert not chosen[3]
+
+
+def test_links_join_members_within_the_radius_only(recording: Recording, made: Recorded) -> None:
+    links = {action: value for _, action, value in recording.rows("/top/decision/links", "strips")}
+    before = made.episode.steps[0].before.positions
+    assert len(links[1]) == 1
+    np.testing.assert_allclose(links[1][0], before[[0, 1]], atol=1e-6)
+    assert not links[2]
+    assert not links[3]
+
+
+def test_grasp_wipes_the_rectangle_off(recording: Recording) -> None:
+    for view in ("top", "world"):
+        rectangles = {action: value for _, action, value in recording.rows(f"/{view}/decision/rectangle", "strips")}
+        assert [len(rectangles[action]) for action in (1, 2, 3)] == [1, 1, 0]
+
+
+def test_expected_places_are_marked_for_what_is_to_move(recording: Recording) -> None:
+    marked = {action: value for _, action, value in recording.rows("/top/decision/expected", "centers")}
+    np.testing.assert_allclose(marked[3], [[-0.10, 0.30]], atol=1e-6)
+
+
+def test_numbers_over_time(recording: Recording) -> None:
+    counts = [value[0] for _, _, value in recording.rows("/numbers/corridor/obstacles", "scalars")]
+    assert (counts[0], min(counts), counts[-1]) == (3.0, 0.0, 0.0)
+    assert [value[0] for _, _, value in recording.rows("/numbers/force/largest", "scalars")] == [0.0, 12.5, 12.5, 3.0]
+    assert [value[0] for _, _, value in recording.rows("/numbers/planning/total", "scalars")] == [30.0, 10.0]
+    radii = [value[0] for _, _, value in recording.rows("/numbers/radius/persistent", "scalars")]
+    np.testing.assert_allclose(radii, [76.2, 152.3])
+
+
+def test_target_displacement_ends_when_it_is_held(recording: Recording) -> None:
+    moved = [value[0] for _, _, value in recording.rows("/numbers/displacement/target", "scalars")]
+    assert max(moved) < 1.0, "it was carried 520 mm"
+
+
+def test_story_says_what_was_decided_and_warns(recording: Recording) -> None:
+    told = [(value[0], action) for _, action, value in recording.rows("/story/log", "text")]
+    levels = [value[0] for _, _, value in recording.rows("/story/log", "level")]
+    assert told[0] == ("hand/made: retrieve mug among 4 other objects (phia, pymunk, arm planar, ripser, seed 7)", 0)
+    assert ("plan 2 (replanned): 2 actions, expected to end retrieved (10 ms, 0 simulated actions)", 1) in told
+    assert any("radii 76, 152 mm; chosen 76 mm, 2 components" in line for line, _ in told)
+    warned = [line for (line, _), level in zip(told, levels, strict=True) if level == "WARN"]
+    assert warned == [
+        "2. done in 3.0 s, largest force 12 N, object_3 toppled",
+        "3. done in 4.0 s, largest force 3 N, touched the north wall",
+    ]
+
+
+def test_setup_is_kept_with_the_recording(recording: Recording) -> None:
+    assert recording.constant("/__properties/setup", "planner") == ["phia"]
+    assert recording.constant("/__properties/setup", "planner_margin") == ["0.015"]
+
+
+def test_names_in_discs_are_short(recording: Recording) -> None:
+    assert recording.constant("/top/objects", "labels") == ["1", "2", "3", "4", "target"]
+
+
+def test_interrupted_action_keeps_the_frames_seen(made: Recorded, tmp_path: Path) -> None:
+    def interrupted() -> Iterator[tuple[float, State]]:
+        yield from made.frames[0][:60]
+        raise KeyboardInterrupt
+
+    recorder = RerunRecorder(tmp_path / "interrupted.rrd")
+    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.planned(made.episode.plans[0])
+    with pytest.raises(KeyboardInterrupt):
+        recorder.stepped(made.episode.steps[0], interrupted())
+    recorder.close()
+    rows = Recording(recorder.path).rows("/world/arm", "translation")
+    assert rows[-1][0] == pytest.approx(made.frames[0][59][0])
+
+
+def test_file_grows_action_by_action(made: Recorded, tmp_path: Path) -> None:
+    recorder = RerunRecorder(tmp_path / "growing.rrd")
+    recorder.begin(SCENE, SETUP, made.arm)
+    sizes = []
+    for step, frames in zip(made.episode.steps, made.frames, strict=True):
+        recorder.stepped(step, frames)
+        sizes.append(recorder.path.stat().st_size)
+    recorder.close()
+    assert sizes == sorted(set(sizes))
+
+
+def test_close_twice_and_before_the_beginning(made: Recorded, tmp_path: Path) -> None:
+    recorder = RerunRecorder(tmp_path / "empty.rrd")
+    recorder.close()
+    recorder.stepped(made.episode.steps[0], made.frames[0])
+    assert not recorder.path.exists(), "nothing is written before an episode begins"
+    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.close()
+    recorder.close()
+    assert "/world/objects/mug" in Recording(recorder.path).entities
+
+
+def test_unwritable_path_is_a_clear_error(made: Recorded, tmp_path: Path) -> None:
+    recorder = RerunRecorder(tmp_path / "missing" / "episode.rrd")
+    with pytest.raises(InputError, match=r"cannot write the recording .*missing.*No such file or directory"):
+        recorder.begin(SCENE, SETUP, made.arm)
+    recorder.close()
+
+
+def test_no_global_recording_is_touched(made: Recorded, tmp_path: Path) -> None:
+    record(made, tmp_path / "one.rrd")
+    assert rr.get_global_data_recording() is None
+    assert rr.get_thread_local_data_recording() is None
+
+
+def test_decision_without_anything_and_no_frames(made: Recorded, tmp_path: Path) -> None:
+    step = made.episode.steps[0]
+    bare = replace(
+        step, decision=replace(step.decision, corridor=None, diagram=None, labels=None, rectangle=None, radius=None)
+    )
+    recorder = RerunRecorder(tmp_path / "bare.rrd")
+    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.stepped(bare, ())
+    recorder.close()
+    rows = partial(Recording(recorder.path).rows)
+    assert rows("/top/decision/corridor/area", "strips")[-1][2] == []
+    assert rows("/world/objects/object_1", "translation")[-1][0] == pytest.approx(step.motion.duration)
