@@ -16,9 +16,23 @@ from pydantic import Field
 from phframe.backends.pymunk_drive import Drive
 from phframe.backends.pymunk_gripper import hold, place_arm, set_opening
 from phframe.backends.pymunk_measures import take_measures
+from phframe.backends.pymunk_snapshot import Snapshot, held_twist, set_in_motion, take_snapshot
 from phframe.backends.pymunk_state import read_state
 from phframe.backends.pymunk_world import Model, Surfaces, World, build_world
-from phframe.core import GripperTrajectory, InputError, Motion, Options, Physics, Settle, State, Stop, Trajectory, Watch
+from phframe.core import (
+    ArmError,
+    FloatArray,
+    GripperTrajectory,
+    InputError,
+    Motion,
+    Options,
+    Physics,
+    Settle,
+    State,
+    Stop,
+    Trajectory,
+    Watch,
+)
 
 
 class PymunkOptions(Options):
@@ -89,6 +103,35 @@ class PymunkPhysics(Physics[PymunkOptions]):
     def observe(self) -> State:
         """The world as it is now."""
         return read_state(self._current)
+
+    def snapshot(self) -> Snapshot:
+        """The world as it is now, moving or not."""
+        return take_snapshot(self._current)
+
+    def state_of(self, snapshot: Snapshot) -> State:
+        """What a snapshot holds, its speeds aside."""
+        return snapshot.state
+
+    def propagate(
+        self,
+        snapshot: Snapshot,
+        twist: FloatArray,
+        dt: float,
+        *,
+        opening: float | None = None,
+        stop: Stop | None = None,
+    ) -> tuple[Snapshot, Motion]:
+        """Hold a fingertip twist for ``dt`` seconds, without settling; see ``SupportsPropagation``."""
+        arm = snapshot.state.arm
+        if arm is None:
+            raise ArmError("a parked arm cannot be propagated: give a state in which it stands somewhere")
+        self.restore(snapshot.state)
+        set_in_motion(self._current, snapshot.velocities)
+        openings = np.array([arm.commanded_opening, arm.commanded_opening if opening is None else opening])
+        motion = self.execute(
+            held_twist(arm.gripper, twist, dt, openings, self.arm.force_limit), settle=None, stop=stop
+        )
+        return take_snapshot(self._current), motion
 
     def close(self) -> None:
         """Drop the space."""
