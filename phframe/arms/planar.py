@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from pydantic import Field
 
+from phframe.arms.planar_motion import PlanarMotionOptions, PlanarMotionPlanner
 from phframe.arms.urdf import planar_urdf
 from phframe.core import (
     ArmError,
@@ -21,6 +22,7 @@ from phframe.core import (
     Mount,
     Options,
     Outline,
+    Scene,
     Shelf,
     planar_pose,
     yaw_of,
@@ -110,6 +112,10 @@ class PlanarArm(ArmModel[PlanarArmOptions]):
     def default_mount(self, shelf: Shelf) -> Mount:
         """In front of the middle of the mouth."""
         return Mount(-0.1, shelf.width / 2.0, HEIGHT, 0.0)
+
+    def motion_planner(self, scene: Scene, mount: Mount) -> PlanarMotionPlanner:
+        """Straight from corner to corner."""
+        return PlanarMotionPlanner(scene, self, mount, PlanarMotionOptions())
 
     def urdf(self) -> str:
         """Three joints, a box for each part of the outline, and a sliding joint for each finger."""

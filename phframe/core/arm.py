@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
-from typing import ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from phframe.core.errors import ArmError
+from phframe.core.errors import ArmError, IncompatibleError
 from phframe.core.options import Options
-from phframe.core.scene import Mount, Shelf
+from phframe.core.scene import Mount, Scene, Shelf
 from phframe.core.value import FloatArray, Floats, Value
+
+if TYPE_CHECKING:
+    from phframe.core.motion_planner import MotionPlanner
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -173,6 +176,17 @@ class ArmModel(ABC, Generic[OptionsT]):
         Its joints and links bear the names in ``joints``, ``fingers`` and ``tip_link``; inertias, limits and collision
         shapes are the real ones.
         """
+
+    def motion_planner(self, scene: Scene, mount: Mount) -> MotionPlanner[Any]:
+        """What lifts the gripper's paths to joints, for backends that drive those.
+
+        Raises:
+            IncompatibleError: If this arm has none.
+        """
+        raise IncompatibleError(
+            f"{type(self).__name__} has no motion planner, so no backend that drives joints can move it: "
+            "take the backend pymunk, or another arm, such as planar"
+        )
 
     def within_limits(self, q: ArrayLike) -> bool:
         """Whether joint values ``(dof,)`` respect every limit."""

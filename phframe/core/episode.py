@@ -6,13 +6,18 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from phframe.core.gripper_path import Action
 from phframe.core.motion import Motion
 from phframe.core.plan import Cost, Decision, Plan, Status
 from phframe.core.scene import Scene
 from phframe.core.state import Condition, State
 from phframe.core.trajectory import Trajectory
-from phframe.core.value import Value
+from phframe.core.value import FloatArray, Value
+
+MOVED = 1e-3
+"""An object that an action displaced by more than this (m) was moved by it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,12 +26,14 @@ class Setup:
 
     Attributes:
         planner: Name of the planner.
-        backend: Name of the physics backend that carried the plan out, and on which it was made.
-        arm: Name of the arm.
+        backend: Name of the physics backend that carried the plan out.
+        arm: Name of the arm that carried it out.
         topology: Name of the topology engine.
         seed: Seed of everything random.
-        options: Options that differ from the defaults, by ``planner``, ``backend``, ``arm`` or ``topology`` and key.
+        options: Options that differ from the defaults, by part, such as ``planner`` or ``plan_backend``, and key.
         versions: Versions of phframe and the libraries used.
+        plan_backend: Name of the physics backend on which it was planned; None: the same.
+        plan_arm: Name of the arm for which it was planned; None: the same.
     """
 
     planner: str
@@ -36,6 +43,8 @@ class Setup:
     seed: int
     options: Mapping[str, Mapping[str, str | float | int | bool | None]] = field(default_factory=dict)
     versions: Mapping[str, str] = field(default_factory=dict, compare=False)
+    plan_backend: str | None = None
+    plan_arm: str | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,6 +71,15 @@ class Step(Value):
     decision: Decision
     plan: int
 
+    @property
+    def prediction_errors(self) -> FloatArray:
+        """Distance ``(k,)`` between expected and observed centre, of each object that moved or should have (m)."""
+        if self.expected is None:
+            return np.zeros(0)
+        before, after, expected = (state.poses[:, :3] for state in (self.before, self.after, self.expected))
+        moved = np.maximum(_distance(before, after), _distance(before, expected)) > MOVED
+        return _distance(after, expected)[moved]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Episode(Value):
@@ -74,6 +92,7 @@ class Episode(Value):
         reason: Why no farther; empty where the target was retrieved.
         plans: All plans, the replans included.
         steps: All actions carried out.
+        motion_planning_time: Wall time for lifting actions to joints (s); left out when episodes are compared.
     """
 
     scene: Scene
@@ -82,6 +101,7 @@ class Episode(Value):
     reason: str
     plans: tuple[Plan, ...]
     steps: tuple[Step, ...]
+    motion_planning_time: float = field(default=0.0, compare=False)
 
     @property
     def final_state(self) -> State:
@@ -107,6 +127,17 @@ class Episode(Value):
     def execution_time(self) -> float:
         """Time the robot moved or waited for rest (simulated or real s)."""
         return sum(step.motion.duration for step in self.steps)
+
+    @property
+    def tracking_error(self) -> float:
+        """Largest distance between where the fingertip was meant to be and where it was (m)."""
+        return max((step.motion.tracking_error for step in self.steps), default=0.0)
+
+    @property
+    def prediction_errors(self) -> FloatArray:
+        """Distance between expected and observed centre of each object that an action moved, or should have (m)."""
+        errors = [step.prediction_errors for step in self.steps if step.expected is not None]
+        return np.concatenate(errors) if errors else np.zeros(0)
 
     @property
     def choices(self) -> Counter[str]:
@@ -145,3 +176,7 @@ class Episode(Value):
         """Retrieved, and no object other than the target toppled or left the board, and the arm touched no wall."""
         harmed = {*self.toppled, *self.spilled} - {self.scene.target}
         return self.status is Status.RETRIEVED and not harmed and not self.wall_contact
+
+
+def _distance(a: FloatArray, b: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.norm(a - b, axis=1))

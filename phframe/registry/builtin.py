@@ -21,6 +21,13 @@ EXTENSIONS = [
         "phframe.backends.pymunk_:PymunkPhysics",
         "The shelf from above, in 2D, with Coulomb friction: fast",
     ),
+    Extension(
+        Kind.BACKEND,
+        "mujoco",
+        "phframe.backends.mujoco_:MujocoPhysics",
+        "The shelf in 3D with MuJoCo: objects tip, roll and fall, the arm is moved by its joints",
+        extra="mujoco",
+    ),
     Extension(Kind.ARM, "planar", "phframe.arms.planar:PlanarArm", "A gripper on a straight link; slides and turns"),
     Extension(
         Kind.TOPOLOGY,

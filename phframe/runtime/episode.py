@@ -20,6 +20,7 @@ from phframe.core import (
     Plan,
     Planner,
     Setup,
+    SimulationDivergedError,
     State,
     Status,
     Step,
@@ -101,10 +102,19 @@ class _Run:
     def episode(self) -> Episode:
         self._tell(lambda observer: observer.begin(self._scene, self._setup, self._execution.arm.shape))
         self._state = self._execution.start()
-        status, reason = self._loop_until_done()
-        episode = Episode(self._scene, self._setup, status, reason, tuple(self._plans), tuple(self._steps))
+        status, reason = self._outcome()
+        spent = self._execution.lifting_time + self._planning.lifting_time
+        plans, steps = tuple(self._plans), tuple(self._steps)
+        episode = Episode(self._scene, self._setup, status, reason, plans, steps, spent)
         self._tell(lambda observer: observer.finished(episode))
         return episode
+
+    def _outcome(self) -> tuple[Status, str]:
+        """How it went; a simulation that diverges is an outcome, too."""
+        try:
+            return self._loop_until_done()
+        except SimulationDivergedError as error:
+            return Status.FAILED, str(error)
 
     def _loop_until_done(self) -> tuple[Status, str]:
         """Plan and carry out until a plan came true or there is no reason to try again."""
@@ -125,7 +135,7 @@ class _Run:
         """Ask the planner, with what is left of the time."""
         spent = sum(plan.cost.total for plan in self._plans)
         task = self._planning.task(
-            self._state if self._same_arm else self._state.parked(),
+            self._state if self._same_arm else replace(self._state, held=None, arm=None),
             self._topology,
             np.random.default_rng(self._seeds.spawn(1)[0]),
             budget=Budget(max(0.0, self._loop.time_limit - spent)),

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from phframe.core import Episode, OptionError, Scene, Setup
-from phframe.registry import Kind, create
+from phframe.core import Episode, JointTrajectory, OptionError, Scene, Setup
+from phframe.registry import Kind, create, load
 from phframe.runtime.episode import Loop, run_episode
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import Observer
@@ -17,7 +18,9 @@ from phframe.runtime.scenes import find_scene
 from phframe.runtime.versions import versions
 from phframe.runtime.world import WorldSpec
 
-OPTION_GROUPS = ("planner", "backend", "arm", "topology", "scenes")
+PLAN_BACKEND = "pymunk"
+"""Where plans are made that an engine of joints carries out: many times faster."""
+OPTION_GROUPS = ("planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "scenes")
 """Whose options ``solve`` takes."""
 
 
@@ -34,6 +37,8 @@ def solve(
     max_replans: int = 5,
     tolerance: float = 0.01,
     workers: int = 1,
+    plan_backend: str | None = None,
+    plan_arm: str | None = None,
     observers: Sequence[Observer] = (),
 ) -> Episode:
     """Take the target out of a shelf: plan, carry out, observe, replan, grasp, withdraw.
@@ -41,15 +46,19 @@ def solve(
     Args:
         scene: ``suite/name``, a scene file, or a scene.
         planner: Registered name, or a file and a class: ``./mine.py:Mine``.
-        backend: Registered name of the physics engine to plan and to execute in.
-        arm: Registered name of the arm.
+        backend: Registered name of the physics engine to execute in.
+        arm: Registered name of the arm that executes.
         topology: Registered name of the engine for persistence diagrams.
         seed: Of everything random; the same seed gives the same episode.
-        options: By ``planner``, ``backend``, ``arm``, ``topology`` and ``scenes``, then by key; values or their text.
+        options: By ``planner``, ``backend``, ``arm``, ``plan_backend``, ``plan_arm``, ``topology`` and ``scenes``, then
+            by key; values or their text.
         time_limit: Wall time for planning, replans included (s).
         max_replans: How often to plan again where reality differs.
         tolerance: What counts as differing (m).
         workers: Processes for planners that try many actions at once.
+        plan_backend: Registered name of the physics engine to plan in; None: pymunk where ``backend`` drives joints,
+            else ``backend``.
+        plan_arm: Registered name of the arm to plan with; None: ``arm``.
         observers: Who looks on; they are closed at the end, also when it is interrupted.
 
     Raises:
@@ -58,19 +67,44 @@ def solve(
     given = _by_group(options or {})
     chosen = find_scene(scene, given["scenes"])
     spec = WorldSpec(chosen, backend, arm, given["backend"], given["arm"])
+    plan_spec = _plan_spec(spec, plan_backend, plan_arm, given)
     setup = Setup(
-        planner, backend, arm, topology, seed, {k: v for k, v in given.items() if v}, versions(backend, topology)
+        planner,
+        backend,
+        arm,
+        topology,
+        seed,
+        {k: v for k, v in given.items() if v},
+        versions(backend, plan_spec.backend, topology),
+        plan_spec.backend if plan_spec.backend != backend else None,
+        plan_spec.arm if plan_spec.arm != arm else None,
     )
     with ExitStack() as stack:
         for observer in observers:
             stack.callback(observer.close)
         search = create(Kind.PLANNER, planner, given["planner"])
         engine = create(Kind.TOPOLOGY, topology, given["topology"])
-        planning = stack.enter_context(PlanningWorld(spec, workers))
+        planning = stack.enter_context(PlanningWorld(plan_spec, workers))
         execution = stack.enter_context(ExecutionWorld(spec))
         return run_episode(
             search, engine, planning, execution, setup, Loop(max_replans, tolerance, time_limit), observers
         )
+
+
+def _plan_spec(
+    spec: WorldSpec, backend: str | None, arm: str | None, given: Mapping[str, Mapping[str, Any]]
+) -> WorldSpec:
+    """What to plan in. Where backend or arm is that of the execution, so are its options, unless others are given."""
+    if backend is None:
+        backend = PLAN_BACKEND if load(Kind.BACKEND, spec.backend).executes is JointTrajectory else spec.backend
+    arm = arm or spec.arm
+    return replace(
+        spec,
+        backend=backend,
+        arm=arm,
+        backend_options={**(spec.backend_options if backend == spec.backend else {}), **given["plan_backend"]},
+        arm_options={**(spec.arm_options if arm == spec.arm else {}), **given["plan_arm"]},
+    )
 
 
 def _by_group(options: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, Any]]:

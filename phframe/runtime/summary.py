@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from phframe.core import Episode
 
 FORMAT = 1
@@ -15,6 +17,8 @@ def summarize(episode: Episode, recording: Path | None = None) -> dict[str, Any]
 
     ``actions`` counts pushes (the paper's number of actions), ``planning_time`` is wall time with all replans (s),
     ``execution_time`` simulated time (s), ``target_moved`` before the grasp (m), ``spilled`` leaves a retrieved target out.
+    ``motion_planning_time`` is wall time for lifting to joints (s), ``tracking_error`` the fingertip's worst (m),
+    ``prediction_error`` of the objects that actions moved (m), or null where nothing was predicted or moved.
     """
     setup, cost = episode.setup, episode.cost
     return {
@@ -23,20 +27,31 @@ def summarize(episode: Episode, recording: Path | None = None) -> dict[str, Any]
         "planner": setup.planner,
         "backend": setup.backend,
         "arm": setup.arm,
+        "plan_backend": setup.plan_backend or setup.backend,
+        "plan_arm": setup.plan_arm or setup.arm,
         "topology": setup.topology,
         "seed": setup.seed,
         "status": str(episode.status),
         "reason": episode.reason,
         "actions": episode.pushes,
         "planning_time": cost.total,
+        "motion_planning_time": episode.motion_planning_time,
         "execution_time": episode.execution_time,
         "simulated_actions": cost.simulated_actions,
         "replans": episode.replans,
         "toppled": list(episode.toppled),
         "spilled": list(episode.spilled),
         "target_moved": episode.target_moved,
+        "tracking_error": episode.tracking_error,
+        "prediction_error": _prediction_error(episode),
         "wall_contact": episode.wall_contact,
         "clean": episode.clean,
         "recording": None if recording is None else str(recording),
         "versions": dict(setup.versions),
     }
+
+
+def _prediction_error(episode: Episode) -> dict[str, float] | None:
+    """How far objects were from where the plan had them after each action."""
+    errors = episode.prediction_errors
+    return {"median": float(np.median(errors)), "worst": float(errors.max())} if len(errors) else None

@@ -17,7 +17,7 @@ _LIBRARIES = {
 
 def versions(*parts: str) -> dict[str, str]:
     """Versions of Python, phframe, numpy, and the libraries behind the named backends and engines."""
-    libraries = (*_ALWAYS, *(_LIBRARIES[part] for part in parts if part in _LIBRARIES))
+    libraries = dict.fromkeys((*_ALWAYS, *(_LIBRARIES[part] for part in parts if part in _LIBRARIES)))
     return {"python": platform.python_version(), **{name: _version(name) for name in libraries}}
 
 

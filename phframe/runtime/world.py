@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import TracebackType
@@ -15,9 +16,9 @@ from phframe.core import (
     Contacts,
     FloatArray,
     GripperPath,
-    GripperTrajectory,
-    IncompatibleError,
+    JointTrajectory,
     Motion,
+    MotionPlanner,
     Phase,
     PhaseRule,
     Physics,
@@ -40,6 +41,10 @@ RETREAT_SPEED = 0.25
 """Of the fingertip that draws back after a stall (m/s)."""
 MOUTH_CLEARANCE = 0.05
 """How far before the mouth plane an arm that draws back ends (m)."""
+
+
+LIFT_ATTEMPTS, LIFT_SECONDS = 10, 30.0
+"""How often a motion planner may try anew, and for how long (s)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +74,9 @@ class World:
     Args:
         spec: What to build.
 
+    Attributes:
+        lifting_time: Wall time spent on motion planning so far (s).
+
     Raises:
         UnknownNameError: If the backend or the arm does not exist.
         NotInstalledError: If its library is not installed.
@@ -82,30 +90,50 @@ class World:
         self.mount = spec.scene.mounts.get(spec.arm) or self.arm.default_mount(spec.scene.shelf)
         backend: type[Physics[Any]] = load(Kind.BACKEND, spec.backend)
         options = backend.options_type.parse(spec.backend_options, f"backend {spec.backend}")
-        if backend.executes is not GripperTrajectory:
-            raise IncompatibleError(f"backend {spec.backend!r} drives joints, for which no motion planner is installed")
+        self._motion_planner = None
+        if backend.executes is JointTrajectory:
+            self._motion_planner = self.arm.motion_planner(spec.scene, self.mount)
+        self.lifting_time = 0.0
         self.physics: Physics[Any] = backend(spec.scene, self.arm, self.mount, options)
         self._home = _seen_from_above(compose(self.mount.pose, self.arm.forward(self.arm.home)))
 
     def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
         """What to drive to carry out an action from a state: the way to the path's beginning, and the path."""
+        if self._motion_planner is not None:
+            return self._lift_to_joints(self._motion_planner, state, action.path)
         pose = self._home if state.arm is None else state.arm.gripper
         first = action.path.rules[action.path.phases[0]].opening
         path = starting_from(action.path, pose, PhaseRule(APPROACH_SPEED, first, Contacts.NONE))
         opening = self.arm.shape.min_opening if state.arm is None else state.arm.commanded_opening
         return time_path(path, opening, self.arm.force_limit)
 
+    def _lift_to_joints(
+        self, planner: MotionPlanner[Any], state: State, path: GripperPath
+    ) -> JointTrajectory | Unreachable:
+        """The same joints for the same state and path, every time."""
+        began = time.perf_counter()
+        try:
+            rng = np.random.default_rng(0)
+            return planner.plan(path, state, attempts=LIFT_ATTEMPTS, seconds=LIFT_SECONDS, rng=rng)
+        finally:
+            self.lifting_time += time.perf_counter() - began
+
     def follow(self, trajectory: Trajectory, watch: Watch | None = None) -> Motion:
         """Follow a trajectory from where the world is and let things settle; draw straight back after a stall."""
         motion = self.physics.execute(trajectory, settle=Settle(), watch=watch)
         if motion.complete:
             return motion
+        retreat = self._retreat(self.physics.observe())
+        if isinstance(retreat, Unreachable):
+            return motion
         later = (
-            None if watch is None else Watch(watch.period, lambda time, seen: watch.look(motion.duration + time, seen))
+            None
+            if watch is None
+            else Watch(watch.period, lambda after, seen: watch.look(motion.duration + after, seen))
         )
-        return motion.then(self.physics.execute(self._retreat(self.physics.observe()), settle=Settle(), watch=later))
+        return motion.then(self.physics.execute(retreat, settle=Settle(), watch=later))
 
-    def _retreat(self, state: State) -> GripperTrajectory:
+    def _retreat(self, state: State) -> Trajectory | Unreachable:
         """Straight back along the gripper's axis until the whole arm is before the mouth."""
         assert state.arm is not None, "an arm that has stalled is not parked"
         pose, opening = state.arm.gripper, state.arm.commanded_opening
@@ -114,6 +142,8 @@ class World:
         out = np.array([*(pose[:2] - away * ahead), pose[2]])
         rule = PhaseRule(RETREAT_SPEED, opening, Contacts.OBJECTS)
         path = GripperPath(np.array([pose, out]), (Phase.RETREAT,), {Phase.RETREAT: rule})
+        if self._motion_planner is not None:
+            return self._lift_to_joints(self._motion_planner, state, path)
         return time_path(path, opening, self.arm.force_limit)
 
     def _front(self, yaw: float) -> float:

@@ -1,0 +1,89 @@
+"""From a joint trajectory to what the servos are told at every control step; what is beyond an arm is refused."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from phframe.backends.mujoco_model import Model
+from phframe.backends.mujoco_world import World, finger_values
+from phframe.core import FloatArray, InputError, JointTrajectory, Trajectory, compose, yaw_of
+
+START_POSITION, START_ANGLE = 2e-3, 1e-2
+"""How far from the arm (m, rad) a trajectory may begin."""
+SPEED_SLACK = 1.02
+"""Joints may be told to be this much faster than they are made for: samples round."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Commands:
+    """What the servos are told, one row for each control step.
+
+    Attributes:
+        controls: Joint values, leading where joints move, then the two fingers ``(k, dof + 2)``.
+        tips: Where the fingertip is meant to be as each control step ends, x and y ``(k, 2)`` (m).
+    """
+
+    controls: FloatArray
+    tips: FloatArray
+
+
+def commands(model: Model, trajectory: JointTrajectory, period: float) -> Commands:
+    """Sample a trajectory once in every control period (s)."""
+    times = np.arange(1, math.ceil(trajectory.duration / period - 1e-9) + 1) * period
+    positions, velocities = trajectory.sample(times)
+    gripper = trajectory.gripper
+    openings = np.interp(times, gripper.times, gripper.openings)
+    fingers = np.array([finger_values(model, opening) for opening in openings]).reshape(-1, 2)
+    seen = times - model.mj.opt.timestep  # a step leaves poses one step behind the joints
+    tips = [np.interp(seen, gripper.times, gripper.poses[:, axis]) for axis in (0, 1)]
+    return Commands(np.hstack([positions + model.lead * velocities, fingers]), np.column_stack(tips))
+
+
+def accepted(world: World, trajectory: Trajectory) -> JointTrajectory:
+    """The trajectory, if the arm can follow it from where it is.
+
+    Raises:
+        InputError: If it is not one of joints, of another arm, begins elsewhere, or is beyond a joint's limits.
+    """
+    if not isinstance(trajectory, JointTrajectory):
+        raise InputError("the mujoco backend drives joints: it needs a JointTrajectory, as a motion planner makes them")
+    if trajectory.positions.shape[1] != world.model.dof:
+        raise InputError(f"a trajectory of {trajectory.positions.shape[1]} joints is not one of {world.model.dof}")
+    _refuse_jump(world, trajectory)
+    _refuse_excess(world.model, trajectory)
+    return trajectory
+
+
+def _refuse_jump(world: World, trajectory: JointTrajectory) -> None:
+    x, y, yaw = world.gripper
+    begin = compose(world.model.mount.pose, world.model.arm.forward(trajectory.positions[0]))
+    distance, turn = math.hypot(begin[0] - x, begin[1] - y), abs(_wrapped(yaw_of(begin) - yaw))
+    joints = float(np.abs(trajectory.positions[0] - world.joints).max())
+    if distance > START_POSITION or turn > START_ANGLE or joints > START_ANGLE:
+        raise InputError(
+            f"the trajectory begins {distance:.3f} m, {turn:.3f} rad and up to {joints:.3f} in a joint from where the arm is"
+        )
+
+
+def _wrapped(angle: float) -> float:
+    return math.remainder(angle, math.tau)
+
+
+def _refuse_excess(model: Model, trajectory: JointTrajectory) -> None:
+    spans = np.diff(trajectory.times)[:, None]
+    steps = np.abs(np.diff(trajectory.positions, axis=0)) / np.where(spans > 0.0, spans, np.inf)
+    for column, joint in enumerate(model.arm.joints):
+        q = trajectory.positions[:, column]
+        if q.min() < joint.lower - 1e-6 or q.max() > joint.upper + 1e-6:
+            raise InputError(
+                f"the trajectory takes joint {joint.name!r} from {q.min():.3f} to {q.max():.3f}; "
+                f"its limits are {joint.lower:g} and {joint.upper:g}"
+            )
+        speed = max(np.abs(trajectory.velocities[:, column]).max(), steps[:, column].max(initial=0.0))
+        if speed > joint.velocity * SPEED_SLACK:
+            raise InputError(
+                f"the trajectory moves joint {joint.name!r} at {speed:.3f}; its limit is {joint.velocity:g}"
+            )

@@ -1,0 +1,74 @@
+"""Keeps the arm from pressing harder than it may."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from phframe.backends.mujoco_world import World
+from phframe.core import FloatArray
+
+LEVER = 1.0
+"""A joint that turns pushes at no more than this distance (m); one that slides pushes directly."""
+HASTE = 2.0
+"""Acceleration (rad/s^2 or m/s^2) for which a joint keeps effort besides what the limit takes."""
+LEAST = 0.05
+"""Share of its effort that a joint keeps in any case, to hold itself."""
+BRAKE = 1.5
+"""Share of the limit above which the arm brakes."""
+RECOVERY = 1.15
+"""Factor by which joints get back their effort in every control step in which the force is below the limit."""
+
+
+class Limiter:
+    """Takes effort from the joints while the arm touches something, and more while it presses harder than its limit.
+
+    What a contact takes, the joints give: with their torques scaled down by limit over force, the force is the limit.
+    Gravity is compensated apart from that, so the arm does not sag.
+
+    Args:
+        world: Whose arm.
+        limit: Of the net contact force (N).
+    """
+
+    def __init__(self, world: World, limit: float) -> None:
+        model = world.model
+        self._world, self._limit = world, limit
+        self._effort = np.array([joint.effort for joint in model.arm.joints])
+        self._pushing = np.minimum(self._effort, limit * LEVER + model.mj.dof_M0[model.speeds] * HASTE)
+        self._least = LEAST * self._effort
+        self._caps = self._effort
+        self._free = False
+        self.release()
+
+    def heed(self, force: float) -> bool:
+        """Take or give back effort, after a control step in which the force on the arm (N) was this.
+
+        Returns:
+            Whether the arm must brake with all it has: something hit hard takes the arm's momentum, too.
+        """
+        if force > BRAKE * self._limit:
+            self.release()
+            self._caps, self._free = self._least, False
+            return True
+        if force > self._limit:
+            given = np.abs(self._world.data.actuator_force[: self._world.model.dof])
+            self._take(np.minimum(self._caps, given * (self._limit / force)))
+        elif force > 0.0:
+            self._take(self._pushing if self._free else np.minimum(self._caps * RECOVERY, self._pushing))
+        else:
+            self.release()
+        return False
+
+    def release(self) -> None:
+        """Give all joints their whole effort."""
+        if not self._free:
+            self._set(self._effort)
+            self._free = True
+
+    def _take(self, caps: FloatArray) -> None:
+        self._set(np.maximum(caps, self._least))
+        self._free = False
+
+    def _set(self, caps: FloatArray) -> None:
+        self._caps = caps
+        self._world.model.mj.actuator_forcerange[: self._world.model.dof] = np.column_stack([-caps, caps])
