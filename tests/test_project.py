@@ -15,7 +15,7 @@ from packaging.utils import canonicalize_name
 from ruamel.yaml import YAML
 
 ROOT = Path(__file__).resolve().parent.parent
-ENGINES = {"rerun", "mujoco", "pybullet", "ompl", "meshes"}
+ENGINES = {"rerun", "mujoco", "pybullet", "ompl", "baxter", "meshes"}
 
 
 @functools.cache
@@ -126,6 +126,8 @@ def test_constraints_are_plain_names_and_versions_in_order() -> None:
         ("ompl", {"sys_platform": "darwin", "platform_version": "Darwin Kernel Version 24.1.0: Thu"}, True),
         ("ompl", {"sys_platform": "darwin", "platform_version": "Darwin Kernel Version 23.6.0: Mon"}, False),
         ("ompl", {"sys_platform": "win32", "platform_version": "10.0.22631"}, False),
+        ("baxter", {"sys_platform": "darwin", "platform_machine": "x86_64"}, True),
+        ("baxter", {"sys_platform": "win32", "platform_machine": "AMD64"}, False),
         ("mujoco", {"sys_platform": "darwin", "platform_machine": "arm64"}, True),
         ("mujoco", {"sys_platform": "darwin", "platform_machine": "x86_64"}, False),
         ("rerun", {"sys_platform": "win32", "platform_machine": "AMD64"}, True),

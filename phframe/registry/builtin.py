@@ -30,6 +30,20 @@ EXTENSIONS = [
     ),
     Extension(Kind.ARM, "planar", "phframe.arms.planar:PlanarArm", "A gripper on a straight link; slides and turns"),
     Extension(
+        Kind.ARM,
+        "baxter",
+        "phframe.arms.baxter:Baxter",
+        "An arm of Rethink Robotics' Baxter: seven joints, electric gripper",
+        extra="baxter",
+    ),
+    Extension(
+        Kind.ARM,
+        "articulated",
+        "phframe.arms.articulated:DescribedArm",
+        "Any arm, from a URDF and a short description of it",
+        extra="baxter",
+    ),
+    Extension(
         Kind.TOPOLOGY,
         "ripser",
         "phframe.topology.ripser_:Ripser",

@@ -1,0 +1,203 @@
+"""An arm of any joints: a URDF and a description say all there is to say, so that another robot is data, not code."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Iterator
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from phframe.arms.description import ArmDescription, Section, TipFrame, read_description
+from phframe.arms.outlines import gripper_outlines
+from phframe.arms.pinocchio_ import Kinematics
+from phframe.arms.robot import with_frame
+from phframe.arms.urdf_reader import Robot, read_robot
+from phframe.core import (
+    ArmError,
+    ArmModel,
+    ArmShape,
+    Fingers,
+    FloatArray,
+    Joint,
+    Mount,
+    Options,
+    Outline,
+    Shelf,
+    turn,
+)
+from phframe.core.value import frozen_floats
+
+FRONT = 1e-3
+"""What begins within this of the fingertips (m) goes in first."""
+
+EXAMPLE = Path(__file__).parent / "example" / "arm.yaml"
+
+OptionsT = TypeVar("OptionsT", bound=Options)
+
+
+class ArticulatedArm(ArmModel[OptionsT]):
+    """An arm that is a URDF and a description."""
+
+    @abstractmethod
+    def describe(self) -> tuple[ArmDescription, str]:
+        """The description, and the URDF's text.
+
+        Raises:
+            InputError: If they cannot be had.
+        """
+
+    @property
+    def description(self) -> ArmDescription:
+        """What is said of the arm besides its URDF."""
+        return self._checked[0]
+
+    def urdf(self) -> str:
+        """The robot, with the link ``fingertip``."""
+        return self._checked[1]
+
+    @cached_property
+    def joints(self) -> tuple[Joint, ...]:
+        """As the URDF has them."""
+        return tuple(_joint(self._robot, name) for name in self.description.joints)
+
+    @cached_property
+    def fingers(self) -> Fingers:
+        """As the URDF has them."""
+        left, right = (self._robot.joint(name) for name in self.description.fingers)
+        names = self.description.fingers
+        return Fingers((_joint(self._robot, names[0]), _joint(self._robot, names[1])), (left.child, right.child))
+
+    @property
+    def force_limit(self) -> float:
+        """As described (N)."""
+        return self.description.force_limit
+
+    @cached_property
+    def home(self) -> FloatArray:
+        """As described."""
+        return frozen_floats(self.description.home)
+
+    @cached_property
+    def shape(self) -> ArmShape:
+        """The covers that move with the fingertip, and what is described of the arm behind."""
+        gripper = gripper_outlines(self._robot, self.tip_link, self.description.fingers)
+        behind = (outline for section in self.description.behind for outline in _section(section))
+        closed = (*gripper, *behind)
+        first = [outline for outline in gripper if outline.vertices[:, 0].max() > -FRONT]
+        left = self.fingers.joints[0]
+        travel = 2.0 * (left.upper - left.lower)
+        return ArmShape(
+            closed,
+            _width([outline.opened(travel) for outline in closed]),
+            _width(first),
+            self.description.min_opening + travel,
+            self.description.min_opening,
+            self.description.height,
+        )
+
+    def forward(self, q: ArrayLike) -> FloatArray:
+        """By the URDF's kinematics."""
+        return self.kinematics.forward(self._joint_values(q))
+
+    def inverse(self, pose: ArrayLike, seed: ArrayLike | None = None) -> FloatArray | None:
+        """By descent from the seed, else from the nearest of thirty other starting points that gets there."""
+        target = np.asarray(pose, dtype=np.float64)
+        if target.shape != (7,) or not np.isfinite(target).all() or not target[3:].any():
+            raise ArmError("a pose needs seven finite numbers: x y z, and a quaternion qw qx qy qz that is not zero")
+        target = np.concatenate([target[:3], target[3:] / np.linalg.norm(target[3:])])
+        return self.kinematics.inverse(target, None if seed is None else self._joint_values(seed))
+
+    def default_mount(self, shelf: Shelf) -> Mount:
+        """So that the middle of the mouth is where the description wants it."""
+        stand = self.description.shelf
+        x, y = -turn(-stand.yaw) @ np.array(stand.at[:2])
+        return Mount(float(x), shelf.width / 2.0 + float(y), -stand.at[2], 0.0 - stand.yaw)
+
+    @cached_property
+    def kinematics(self) -> Kinematics:
+        """Of the chain from the base to the fingertip."""
+        return Kinematics(self.urdf(), self.description.joints, self.tip_link, self.home)
+
+    @cached_property
+    def _checked(self) -> tuple[ArmDescription, str]:
+        """The description and the URDF with the fingertip's link, found to agree."""
+        description, text = self.describe()
+        robot = read_robot(text)
+        text = _with_tip(text, robot, description.tip)
+        limits = [_joint(robot, name) for name in description.joints]
+        if len(description.home) != len(limits):
+            raise ArmError(f"home has {len(description.home)} values for {len(limits)} joints")
+        for joint, value in zip(limits, description.home, strict=True):
+            if not joint.lower <= value <= joint.upper:
+                raise ArmError(
+                    f"at home {joint.name} is {value:g}, beyond its limits {joint.lower:g} to {joint.upper:g}"
+                )
+        for name in description.fingers:
+            if robot.joint(name).kind != "prismatic":
+                raise ArmError(f"the finger joint {name!r} turns; fingers that slide are needed")
+        return description, text
+
+    @cached_property
+    def _robot(self) -> Robot:
+        return read_robot(self.urdf())
+
+    def _joint_values(self, q: ArrayLike) -> FloatArray:
+        values = np.asarray(q, dtype=np.float64)
+        dof = len(self.description.joints)
+        if values.shape != (dof,) or not np.isfinite(values).all():
+            raise ArmError(f"the arm needs {dof} finite joint values ({', '.join(self.description.joints)})")
+        return values
+
+
+class DescribedArmOptions(Options):
+    """Where the description is.
+
+    Attributes:
+        description: A YAML file; it names the URDF's file. By default an example, to copy and to try.
+    """
+
+    description: Path = EXAMPLE
+
+
+class DescribedArm(ArticulatedArm[DescribedArmOptions]):
+    """The arm that a file describes."""
+
+    options_type = DescribedArmOptions
+
+    def describe(self) -> tuple[ArmDescription, str]:
+        """What the files say."""
+        return read_description(self.options.description)
+
+
+def _joint(robot: Robot, name: str) -> Joint:
+    joint = robot.joint(name).joint
+    assert joint is not None, "found by its joint"
+    return joint
+
+
+def _with_tip(text: str, robot: Robot, tip: TipFrame | None) -> str:
+    if tip is None:
+        if ArmModel.tip_link not in robot.covers:
+            raise ArmError(f"the URDF has no link {ArmModel.tip_link!r}: say under 'tip' where the fingertip is")
+        return text
+    if tip.link not in robot.covers:
+        raise ArmError(f"the URDF has no link {tip.link!r}; there is: {', '.join(robot.covers)}")
+    return with_frame(text, ArmModel.tip_link, tip.link, tip.at, tip.rpy)
+
+
+def _section(section: Section) -> Iterator[Outline]:
+    """A described part, straight between one width and the next; two at one distance are a step."""
+    for (near, half_near), (far, half_far) in pairwise(section.widths):
+        corners = [(-far, -half_far), (-near, -half_near), (-near, half_near), (-far, half_far)]
+        if far > near:
+            yield Outline(section.part, np.array(corners), 0, section.bottom, section.top)
+
+
+def _width(outlines: list[Outline]) -> float:
+    """Of the narrowest strip about the x axis that holds all outlines (m)."""
+    return 2.0 * max(float(np.abs(outline.vertices[:, 1]).max()) for outline in outlines)

@@ -1,0 +1,45 @@
+"""Baxter as an articulated arm: its table of figures as a URDF and a description."""
+
+from __future__ import annotations
+
+from phframe.arms.articulated import ArticulatedArm
+from phframe.arms.baxter import figures
+from phframe.arms.baxter.model import Side, arm_joints, baxter_urdf, fingers, mirrored
+from phframe.arms.description import ArmDescription, Section, Stand
+from phframe.core import Options
+
+
+class BaxterOptions(Options):
+    """Which arm works.
+
+    Attributes:
+        side: Left or right; the other one is parked outwards. The shelf stands before the one that works.
+    """
+
+    side: Side = "left"
+
+
+class Baxter(ArticulatedArm[BaxterOptions]):
+    """One arm of Baxter, with the electric gripper: narrow fingers, 0.11 m long, for things 35 to 76 mm wide."""
+
+    options_type = BaxterOptions
+
+    def describe(self) -> tuple[ArmDescription, str]:
+        """From the table of figures."""
+        side = self.options.side
+        return _description(side), baxter_urdf(side)
+
+
+def _description(side: Side) -> ArmDescription:
+    left, (x, y, z) = side == "left", figures.MOUTH_AT
+    finger_joints = fingers(side).joints
+    half = figures.HALF_HEIGHT
+    return ArmDescription(
+        joints=tuple(joint.name for joint in arm_joints(side)),
+        fingers=(finger_joints[0].name, finger_joints[1].name),
+        min_opening=figures.MIN_OPENING,
+        home=figures.HOME if left else mirrored(figures.HOME),
+        shelf=Stand(at=(x, y if left else -y, z)),
+        height=figures.GRIPPER_HEIGHT,
+        behind=(Section(part="forearm", widths=figures.WIDTHS, bottom=-half, top=half),),
+    )

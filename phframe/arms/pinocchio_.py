@@ -1,0 +1,148 @@
+"""Forward and inverse kinematics of an arm given as URDF, by Pinocchio."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+
+import numpy as np
+import pinocchio
+from numpy.typing import NDArray
+
+from phframe.core import FloatArray
+
+RESTARTS = 30
+"""Starting points besides the seed before a pose counts as out of reach."""
+INSET = 1e-9
+"""Kept from the joint limits (rad or m)."""
+EXACT = 1e-9
+"""What is left of position (m) and turn (rad) together when a pose counts as reached."""
+STEPS = 60
+"""Most steps from one starting point."""
+PATIENCE = 8
+"""Steps without getting nearer by a tenth before a starting point is given up."""
+LONGEST_STEP = 0.5
+"""Of any joint in one step (rad or m)."""
+
+
+class Kinematics:
+    """One chain of joints in a robot; all its other joints stay at 0. Keeps nothing from call to call.
+
+    Args:
+        urdf: The robot.
+        joints: Names of the joints in the chain, from the base to the tip.
+        tip: Name of the link that is moved.
+        home: Joint values ``(dof,)`` where searching begins when no seed is given.
+    """
+
+    def __init__(self, urdf: str, joints: Sequence[str], tip: str, home: FloatArray) -> None:
+        whole = pinocchio.buildModelFromXML(urdf)
+        others = [number for number, name in enumerate(whole.names) if number and name not in joints]
+        self._model = pinocchio.buildReducedModel(whole, others, pinocchio.neutral(whole))
+        self._numbers = [self._model.getJointId(name) for name in joints]
+        self._rows = np.array([self._model.idx_qs[number] for number in self._numbers])
+        self._data, self._tip, self._home = self._model.createData(), self._model.getFrameId(tip), home
+        self._lower = self._model.lowerPositionLimit[self._rows] + INSET
+        self._upper = self._model.upperPositionLimit[self._rows] - INSET
+        self._root, self._longest = self._reach()
+
+    def forward(self, q: FloatArray) -> FloatArray:
+        """Pose ``(7,)`` of the tip, scalar first, in the frame of the robot's root, for joint values ``(dof,)``."""
+        pinocchio.framesForwardKinematics(self._model, self._data, self._all(q))
+        x, y, z, i, j, k, scalar = pinocchio.SE3ToXYZQUAT(self._data.oMf[self._tip])
+        return np.array([x, y, z, scalar, i, j, k])
+
+    def inverse(self, pose: FloatArray, seed: FloatArray | None = None) -> FloatArray | None:
+        """Joint values ``(dof,)`` for a pose ``(7,)``, or None.
+
+        Found from the seed, else from the starting point nearest to it that gets there.
+        """
+        if float(np.linalg.norm(pose[:3] - self._root)) > self._longest:
+            return None
+        for start in self._starts(self._home if seed is None else seed):
+            found = self.descend(pose, start)
+            if found is not None:
+                return found
+        return None
+
+    def descend(self, pose: FloatArray, start: FloatArray) -> FloatArray | None:
+        """Joint values ``(dof,)`` for a pose ``(7,)``, going downhill from ``start`` alone, or None."""
+        x, y, z, scalar, i, j, k = pose
+        target = pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
+        q = np.clip(start, self._lower, self._upper)
+        least, since = np.inf, 0
+        for _ in range(STEPS):
+            error, jacobian = self._error(q, target)
+            left = float(np.sqrt(error @ error))
+            if left < EXACT:
+                return q
+            least, since = (left, 0) if left < 0.9 * least else (least, since + 1)
+            if since > PATIENCE:
+                return None
+            q = self._stepped(q, error, jacobian)
+        return None
+
+    def self_motion(self, q: FloatArray) -> FloatArray:
+        """The unit direction ``(dof,)`` in which the joints can move and the tip stays, best so where there are several.
+
+        With more joints than six it leads from one configuration to others with the same fingertip pose.
+        """
+        pinocchio.computeJointJacobians(self._model, self._data, self._all(q))
+        pinocchio.updateFramePlacement(self._model, self._data, self._tip)
+        jacobian = pinocchio.getFrameJacobian(self._model, self._data, self._tip, pinocchio.LOCAL)[:, self._rows]
+        return np.asarray(np.linalg.svd(jacobian)[2][-1])
+
+    def _reach(self) -> tuple[FloatArray, float]:
+        """The first joint's place ``(3,)`` and a distance from it (m) that the tip cannot exceed."""
+        frame = self._model.frames[self._tip]
+        steps = [self._model.jointPlacements[number].translation for number in range(2, self._model.njoints)]
+        slides = np.abs([self._lower, self._upper]).max(axis=0)[
+            [not self._model.joints[number].shortname().startswith("JointModelR") for number in self._numbers]
+        ]
+        length = sum(float(np.linalg.norm(step)) for step in (*steps, frame.placement.translation))
+        return self._model.jointPlacements[1].translation, length + float(slides.sum())
+
+    def _error(self, q: FloatArray, target: pinocchio.SE3) -> tuple[FloatArray, FloatArray]:
+        """The twist ``(6,)`` that is left to the target, seen from the tip, and the tip's Jacobian ``(6, dof)``."""
+        model, data, tip = self._model, self._data, self._tip
+        pinocchio.computeJointJacobians(model, data, self._all(q))
+        left = pinocchio.updateFramePlacement(model, data, tip).actInv(target)
+        jacobian = pinocchio.getFrameJacobian(model, data, tip, pinocchio.LOCAL)[:, self._rows]
+        return pinocchio.log6(left).vector, jacobian
+
+    def _stepped(self, q: FloatArray, error: FloatArray, jacobian: FloatArray) -> FloatArray:
+        """One damped least-squares step; a joint that would leave its limits stays there and the others do its work."""
+        free = np.ones(len(q), dtype=np.bool_)
+        damping = min(1e-2, float(error @ error)) + 1e-12
+        for _ in range(len(q)):
+            step = _least_squares(jacobian, error, free, damping)
+            step *= min(1.0, LONGEST_STEP / max(float(np.abs(step).max()), 1e-12))
+            beyond = free & (
+                (q + step > self._upper) & (q >= self._upper) | (q + step < self._lower) & (q <= self._lower)
+            )
+            if not beyond.any():
+                break
+            free &= ~beyond
+        return np.clip(q + step, self._lower, self._upper)
+
+    def _all(self, q: FloatArray) -> FloatArray:
+        """The chain's joint values in the model's order."""
+        values = np.empty(len(q))
+        values[self._rows] = q
+        return values
+
+    def _starts(self, seed: FloatArray) -> Iterator[FloatArray]:
+        yield seed
+        distances = np.linalg.norm(self._spread - seed, axis=1)
+        yield from self._spread[np.argsort(distances, kind="stable")]
+
+    @cached_property
+    def _spread(self) -> FloatArray:
+        """Joint values ``(RESTARTS, dof)`` all over the limits, the same ones every time."""
+        return np.random.default_rng(0).uniform(self._lower, self._upper, (RESTARTS, len(self._lower)))
+
+
+def _least_squares(jacobian: FloatArray, error: FloatArray, free: NDArray[np.bool_], damping: float) -> FloatArray:
+    """The smallest step ``(dof,)`` of the free joints that makes up for an error ``(6,)``."""
+    usable = jacobian * free
+    return np.asarray(usable.T @ np.linalg.solve(usable @ usable.T + damping * np.eye(6), error))

@@ -1,0 +1,163 @@
+"""Another robot as data: a URDF and a description make an arm, and whatever is wrong with them is one clear line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from ruamel.yaml import YAML
+
+pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
+
+from phframe.arms.articulated import DescribedArm, DescribedArmOptions
+from phframe.arms.robot import Connection, Link, robot_urdf
+from phframe.arms.solids import Solid, of_solids
+from phframe.core import ArmError, InputError, Joint, Mount, Shelf, compose, planar_pose
+
+pytestmark = pytest.mark.needs_baxter
+
+SHELF = Shelf(0.5, 0.6)
+BOX = Solid("box", (0.2, 0.06, 0.06), (0.1, 0.0, 0.0))
+DESCRIPTION: dict[str, Any] = {
+    "phframe": 1,
+    "urdf": "robot.urdf",
+    "joints": ["lift", "shoulder", "elbow", "wrist", "tilt", "roll"],
+    "fingers": ["left_slide", "right_slide"],
+    "tip": {"link": "palm", "at": [0.14, 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]},
+    "min_opening": 0.01,
+    "home": [0.1, 1.2, -2.0, 0.8, 0.0, 0.0],
+    "shelf": {"at": [0.5, 0.0, 0.0]},
+    "height": 0.08,
+    "behind": [{"part": "forearm", "widths": [[0.14, 0.05], [0.4, 0.1]], "bottom": -0.03, "top": 0.03}],
+}
+"""A lift with an arm of three parallel joints and a wrist of two more."""
+
+
+def urdf(kind: str = "prismatic") -> str:
+    """The robot: links 0.35, 0.3 and 0.1 m long, and a palm with two fingers that slide."""
+    names = ("base", "tower", "upper", "fore", "hand", "knuckle", "palm", "left_finger", "right_finger")
+    links = [Link(name, of_solids(1.0, [BOX]), (BOX,) if name in ("upper", "fore") else ()) for name in names[:6]]
+    palm = (Solid("box", (0.04, 0.14, 0.05), (0.04, 0.0, 0.0)), Solid("cylinder", (0.03, 0.04), (0.0, 0.0, 0.0)))
+    links.append(Link("palm", of_solids(0.5, palm), palm))
+    finger = Solid("box", (0.08, 0.02, 0.03), (0.04, 0.0, 0.0))
+    links += [Link(name, of_solids(0.05, [finger]), (finger,)) for name in names[7:]]
+    turn = {"velocity": 2.0, "effort": 40.0}
+    z, y, x = (0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)
+    chain = [
+        ("base", "tower", (0.0, 0.0, 0.0), Joint("lift", -0.2, 0.5, velocity=0.5, effort=300.0), "prismatic", z),
+        ("tower", "upper", (0.05, 0.0, 0.0), Joint("shoulder", -2.5, 2.5, **turn), "revolute", z),
+        ("upper", "fore", (0.35, 0.0, 0.0), Joint("elbow", -2.6, 2.6, **turn), "revolute", z),
+        ("fore", "hand", (0.3, 0.0, 0.0), Joint("wrist", -2.5, 2.5, **turn), "revolute", z),
+        ("hand", "knuckle", (0.05, 0.0, 0.0), Joint("tilt", -1.0, 1.0, **turn), "revolute", y),
+        ("knuckle", "palm", (0.05, 0.0, 0.0), Joint("roll", -3.0, 3.0, **turn), "revolute", x),
+    ]
+    connections = [Connection(a, b, at, joint=j, kind=k, axis=axis) for a, b, at, j, k, axis in chain]  # type: ignore[arg-type]
+    for name, sign, follows in (("left", 1.0, ""), ("right", -1.0, "left_slide")):
+        joint = Joint(f"{name}_slide", 0.0, 0.03, velocity=0.1, effort=20.0)
+        at, axis = (0.06, sign * 0.015, 0.0), (0.0, sign, 0.0)
+        connections.append(Connection("palm", f"{name}_finger", at, (0.0, 0.0, 0.0), joint, kind, axis, follows))  # type: ignore[arg-type]
+    return robot_urdf("lift_arm", links, connections)
+
+
+def arm(folder: Path, text: str | None = None, **changes: Any) -> DescribedArm:
+    (folder / "robot.urdf").write_text(urdf() if text is None else text, "utf-8")
+    with (folder / "arm.yaml").open("w", encoding="utf-8") as file:
+        YAML().dump({key: value for key, value in {**DESCRIPTION, **changes}.items() if value is not None}, file)
+    return DescribedArm(DescribedArmOptions(description=folder / "arm.yaml"))
+
+
+def test_a_robot_is_two_files(tmp_path: Path) -> None:
+    robot = arm(tmp_path)
+    assert [joint.name for joint in robot.joints] == DESCRIPTION["joints"]
+    assert robot.joints[0].effort == 300.0
+    np.testing.assert_allclose(robot.forward(np.zeros(6)), planar_pose(0.05 + 0.35 + 0.3 + 0.1 + 0.14, 0.0), atol=1e-12)
+    assert robot.default_mount(SHELF) == Mount(-0.5, 0.3, 0.0, 0.0)
+    wanted = planar_pose(0.6, 0.1, 0.08, 0.3)
+    found = robot.inverse(wanted, robot.home)
+    assert found is not None
+    np.testing.assert_allclose(robot.forward(found), wanted, atol=1e-8)
+    assert robot.inverse(planar_pose(0.6, 0.1, 0.9)) is None, "higher than the lift goes"
+
+
+def test_its_outlines_come_from_its_covers_and_the_description(tmp_path: Path) -> None:
+    shape = arm(tmp_path).shape
+    by_part = {outline.part: outline for outline in shape.closed}
+    assert set(by_part) == {"palm 0", "palm 1", "left finger", "right finger", "forearm"}
+    left = by_part["left finger"].vertices
+    np.testing.assert_allclose([left.min(axis=0), left.max(axis=0)], [[-0.08, 0.005], [0.0, 0.025]], atol=1e-9)
+    round_ = by_part["palm 1"].vertices
+    np.testing.assert_allclose([round_.min(axis=0), round_.max(axis=0)], [[-0.17, -0.03], [-0.11, 0.03]], atol=1e-4)
+    np.testing.assert_allclose(by_part["forearm"].vertices[0], [-0.4, -0.1])
+    assert (shape.insertion_width, shape.link_width) == pytest.approx((0.05, 0.2))
+    assert (shape.min_opening, shape.max_opening) == pytest.approx((0.01, 0.07))
+
+
+def test_a_shelf_that_stands_askew_is_where_it_is_described(tmp_path: Path) -> None:
+    robot = arm(tmp_path, shelf={"at": [0.4, 0.2, -0.1], "yaw": 0.5})
+    mouth = planar_pose(0.0, SHELF.width / 2.0, 0.0)
+    base = robot.default_mount(SHELF).pose
+    np.testing.assert_allclose(compose(base, planar_pose(0.4, 0.2, -0.1, 0.5)), mouth, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"joints": ["lift", "hip"]}, "no moving joint 'hip'; there is: elbow, left_slide"),
+        ({"home": [0.0]}, "home has 1 values for 6 joints"),
+        ({"home": [9.0, 0.0, 0.0, 0.0, 0.0, 0.0]}, "at home lift is 9, beyond its limits -0.2 to 0.5"),
+        ({"fingers": ["left_slide", "roll"]}, "the finger joint 'roll' turns"),
+        ({"tip": None}, "no link 'fingertip': say under 'tip'"),
+        ({"tip": {"link": "thumb", "at": [0, 0, 0]}}, "no link 'thumb'; there is: base, tower"),
+        ({"tip": {"link": "palm", "at": [0, 0]}}, "arm.yaml: tip.at"),
+        ({"height": float("nan")}, "arm.yaml: height"),
+        ({"mount": 1}, "arm.yaml: mount: extra inputs are not permitted"),
+        ({"phframe": 2}, "arm.yaml: phframe"),
+        ({"urdf": "gone.urdf"}, "cannot read .*gone.urdf: No such file"),
+        ({"urdf": None}, "urdf must name"),
+    ],
+)
+def test_a_description_that_cannot_be_is_told(tmp_path: Path, changes: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        arm(tmp_path, **changes).urdf()
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "the URDF is not XML"),
+        ("<sdf/>", "begins with <sdf>, not with <robot>"),
+        (urdf().replace('link="upper"', 'link="lower"', 1), "names the link 'lower', which does not exist"),
+        (urdf().replace('type="revolute"', 'type="floating"', 1), "'floating'; an arm has joints that are fixed"),
+        (urdf().replace('upper="2.5"', 'upper="nan"', 1), "'nan' where a finite number is needed"),
+        (urdf().replace('upper="2.5"', 'upper="wide"', 1), "'wide' where a number is needed"),
+        (urdf().replace('upper="2.5" ', "", 1), "joint 'shoulder' of the URDF has no upper"),
+        (urdf().replace('xyz="0.05 0.0 0.0"', 'xyz="0.05 0.0"', 1), "'0.05 0.0' where three numbers are needed"),
+        (urdf("revolute"), "the finger joint 'left_slide' turns"),
+    ],
+)
+def test_a_urdf_that_does_not_load_is_told(tmp_path: Path, text: str, said: str) -> None:
+    with pytest.raises(ArmError, match=said):
+        arm(tmp_path, text).urdf()
+
+
+def test_files_that_are_not_there_or_not_text_are_told(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"cannot read .*none\.yaml"):
+        DescribedArm(DescribedArmOptions(description=tmp_path / "none.yaml")).urdf()
+    (tmp_path / "bad.yaml").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(InputError, match="not UTF-8"):
+        DescribedArm(DescribedArmOptions(description=tmp_path / "bad.yaml")).urdf()
+    (tmp_path / "open.yaml").write_text("joints: [", "utf-8")
+    with pytest.raises(InputError, match="not valid YAML"):
+        DescribedArm(DescribedArmOptions(description=tmp_path / "open.yaml")).urdf()
+
+
+def test_the_example_is_an_arm_that_solves_a_scene() -> None:
+    import phframe
+
+    example = DescribedArm(DescribedArmOptions())
+    tip = compose(example.default_mount(SHELF).pose, example.forward(example.home))
+    np.testing.assert_allclose(tip, planar_pose(-0.04, SHELF.width / 2.0, 0.08), atol=1e-5)
+    episode = phframe.solve("vieira/simple-01", arm="articulated")
+    assert episode.status == "retrieved"

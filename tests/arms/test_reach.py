@@ -1,0 +1,71 @@
+"""The reach of an arm: what a mount is worth, counted over the shelf."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from phframe.arms.planar import PlanarArm, PlanarArmOptions
+from phframe.arms.reach import INSET, YAWS, reachability, share_reachable
+from phframe.core import Cylinder, Mount, Scene, SceneObject, Shelf
+
+SHELF = Shelf(0.594, 0.584)
+SCENE = Scene("alone", SHELF, (SceneObject("can", Cylinder(0.03), (0.4, 0.3)),), "can")
+
+
+def test_a_planar_arm_reaches_all_that_its_link_fits_into() -> None:
+    arm = PlanarArm(PlanarArmOptions())
+    reach = reachability(SCENE, arm, arm.default_mount(SHELF))
+    assert reach.depths[0] >= INSET
+    assert reach.widths[-1] <= SHELF.width - INSET
+    beside_wall = reach.widths < arm.shape.link_width / 2.0
+    deep = reach.depths > 0.15
+    assert np.isinf(reach.yaws[np.ix_(beside_wall, deep)]).sum() == 0, "a few degrees of yaw get it there"
+    assert (np.abs(reach.yaws[np.ix_(beside_wall, deep)]) > 0.0).all()
+    middle = np.abs(reach.widths - SHELF.width / 2.0) < 0.2
+    assert (reach.yaws[middle] == 0.0).all()
+
+
+def test_of_a_wide_arm_less_is_within_reach() -> None:
+    wide = PlanarArm(PlanarArmOptions(link_width=0.5))
+    assert 0.1 < share_reachable(SCENE, wide, wide.default_mount(SHELF)) < 0.6
+
+
+def test_a_mount_out_of_reach_is_worth_nothing() -> None:
+    arm = PlanarArm(PlanarArmOptions())
+    assert share_reachable(SCENE, arm, Mount(-3.0, 0.29, arm.shape.height, 0.0)) == 0.0
+    assert share_reachable(SCENE, arm, Mount(-0.1, 0.29, 0.2, 0.0)) == 0.0, "the planar arm stays in its plane"
+
+
+def test_the_yaws_tried_are_level_ones_within_thirty_degrees() -> None:
+    assert YAWS[0] == 0.0
+    assert max(map(abs, YAWS)) == pytest.approx(math.radians(30))
+
+
+@pytest.mark.slow
+@pytest.mark.needs_baxter
+def test_baxter_reaches_its_shelf_and_less_from_farther_away() -> None:
+    pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
+    from tests.arms.baxter_arm import baxter
+
+    arm = baxter("left")
+    mount = arm.default_mount(SHELF)
+    assert share_reachable(SCENE, arm, mount) > 0.95
+    assert share_reachable(SCENE, arm, Mount(mount.x - 0.2, mount.y, mount.z, 0.0)) < 0.8
+    assert share_reachable(SCENE, arm, Mount(mount.x - 1.0, mount.y, mount.z, 0.0)) == 0.0
+
+
+def test_the_map_is_a_picture(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    from matplotlib.image import imread
+
+    from phframe.arms.reach_map import draw_reach
+
+    arm = PlanarArm(PlanarArmOptions(link_width=0.5))
+    draw_reach(reachability(SCENE, arm, arm.default_mount(SHELF)), SCENE, "planar", tmp_path / "reach.png")
+    picture = imread(tmp_path / "reach.png")
+    assert picture.shape[0] > 400
+    assert float(picture[..., :3].std()) > 0.05
