@@ -20,6 +20,7 @@ from phframe.core import (
     Plan,
     Planner,
     Setup,
+    SimulationDivergedError,
     State,
     Status,
     Step,
@@ -33,6 +34,7 @@ from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import Observer
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.replay import replay
+from phframe.runtime.world import WorldSpec
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +93,6 @@ class _Run:
         self._planner, self._topology, self._planning, self._execution = planner, topology, planning, execution
         self._setup, self._loop, self._observers = setup, loop, observers
         self._scene = execution.scene
-        self._replaying = planning if planning.spec == execution.spec else PlanningWorld(execution.spec)
         self._seeds = np.random.SeedSequence(setup.seed)
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
@@ -101,7 +102,10 @@ class _Run:
     def episode(self) -> Episode:
         self._tell(lambda observer: observer.begin(self._scene, self._setup, self._execution.arm.shape))
         self._state = self._execution.start()
-        status, reason = self._loop_until_done()
+        try:
+            status, reason = self._loop_until_done()
+        except SimulationDivergedError as error:
+            status, reason = Status.FAILED, str(error)
         episode = Episode(self._scene, self._setup, status, reason, tuple(self._plans), tuple(self._steps))
         self._tell(lambda observer: observer.finished(episode))
         return episode
@@ -203,7 +207,7 @@ class _Run:
         self._state = self._execution.observe()
         step = Step(action, trajectory, before, self._state, expected, motion, decision, len(self._plans) - 1)
         self._steps.append(step)
-        self._tell(lambda observer: observer.stepped(step, _Frames(self._replaying, step)))
+        self._tell(lambda observer: observer.stepped(step, _Frames(self._planning, self._execution.spec, step)))
         return ""
 
     def _deviation(self, expected: State, action: Action) -> str:
@@ -227,13 +231,18 @@ class _Run:
 
 @dataclass(frozen=True, slots=True)
 class _Frames:
-    """Frames of a step, replayed each time somebody asks for them."""
+    """Frames of a step, replayed each time somebody asks for them, in a world like the one it was carried out in."""
 
-    world: PlanningWorld
+    planning: PlanningWorld
+    spec: WorldSpec
     step: Step
 
     def __iter__(self) -> Iterator[tuple[float, State]]:
-        return replay(self.world, self.step.before, self.step.action)
+        if self.planning.spec == self.spec:
+            yield from replay(self.planning, self.step.before, self.step.action)
+            return
+        with PlanningWorld(self.spec) as world:
+            yield from replay(world, self.step.before, self.step.action)
 
 
 def _end_of_reach(step: Step) -> float:
