@@ -122,6 +122,8 @@ class _Run:
                 return status, ""
             if self._lost:
                 return Status.FAILED, f"the target was lost: {reason}"
+            if self._state.held is not None:
+                return Status.FAILED, f"{self._state.held} is in the hand instead of {self._scene.target}"
             if len(self._plans) > self._loop.max_replans:
                 return status, reason
 
