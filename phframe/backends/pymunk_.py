@@ -72,8 +72,10 @@ class PymunkPhysics(Physics[PymunkOptions]):
             raise InputError(
                 f"a state of {len(state.poses)} objects is not one of {self.scene.name!r}, which has {len(self.scene.objects)}"
             )
-        if not np.isfinite(state.poses).all():
+        if not (np.isfinite(state.poses).all() and (state.arm is None or np.isfinite(state.arm.gripper).all())):
             raise InputError("a state holds poses that are not finite numbers")
+        if state.held is not None and not state.on_board[self.scene.index(state.held)]:
+            raise InputError(f"{state.held!r} cannot be held, since it has spilled")
         self._world = world = build_world(self.model, state)
         if state.arm is not None:
             place_arm(world, state.arm.gripper)

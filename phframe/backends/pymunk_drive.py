@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from phframe.backends.pymunk_gripper import between_fingers, gripped, hold, place_arm, set_opening
+from phframe.backends.pymunk_gripper import between_fingers, gripped, hold, place_arm, place_held, release, set_opening
 from phframe.backends.pymunk_quiet import free_share, is_still, stays_outside
 from phframe.backends.pymunk_report import motion_of
 from phframe.backends.pymunk_state import is_calm, read_state, refuse_divergence, spill
-from phframe.backends.pymunk_world import World, note_contact
+from phframe.backends.pymunk_world import World, note_contact, overlap
 from phframe.core import FORCE_WINDOW, FloatArray, GripperTrajectory, InputError, Motion, Phase, Settle, Stop, Watch
 
 STRETCH = 30
@@ -19,6 +19,8 @@ CALM_CHECK = 6
 """Steps between looks at whether all is at rest."""
 START_POSITION, START_YAW = 2e-3, 1e-2
 """How far from the arm (m, rad) a trajectory may begin."""
+EASE_SPEED, EASE_STEPS, EASED = 0.05, 60, 1e-5
+"""How fast (m/s), for how many steps, and down to which overlap (m) a stalled arm gives way."""
 SATURATED = 0.999
 """Share of the force limit at which the drive has nothing left to give."""
 
@@ -103,10 +105,14 @@ class Drive:
         if not (world.at_rest or is_still(world)):
             return
         start = np.array([*world.arm.carrier.position, world.arm.carrier.angle])
+        held = None if world.held is None else np.array(world.items[world.held].body.position)
         begin = world.tick
         free = math.floor(free_share(world, start, target) * (end - begin))
         for world.tick in self._stops(begin, begin + free):
-            place_arm(world, start + (target - start) * ((world.tick - begin) / (end - begin)))
+            way = (target - start) * ((world.tick - begin) / (end - begin))
+            place_arm(world, start + way)
+            if held is not None:
+                place_held(world, held + way[:2])
             self._look()
 
     def _stops(self, begin: int, end: int) -> list[int]:
@@ -133,6 +139,11 @@ class Drive:
         if world.at_rest and stays_outside(world, trajectory.poses[leg], trajectory.poses[leg + 1]):
             set_opening(world, last)
             return
+        if world.held is not None and last <= world.opening:
+            world.command = last
+            return
+        if world.held is not None:
+            release(world)
         within_reach = between_fingers(world) if trajectory.phases[leg] is Phase.GRASP else []
         self._set_speed(trajectory.poses[leg + 1], (end - begin) * self._step)
         world.at_rest = False
@@ -140,8 +151,7 @@ class Drive:
             if (item := gripped(world, within_reach)) is not None:
                 hold(world, item, last)
                 return
-            if world.held is None:
-                set_opening(world, first + (last - first) * ((world.tick + 1 - begin) / (end - begin)))
+            set_opening(world, first + (last - first) * ((world.tick + 1 - begin) / (end - begin)))
             self._advance(world.tick + 1)
             self._heed_stop()
 
@@ -181,11 +191,26 @@ class Drive:
     def _halt(self) -> None:
         """Stand still, and where the arm could not follow, forget where it should have been."""
         arm = self._world.arm
+        if self.stalled:
+            self._ease_off()
         arm.carrier.velocity = arm.body.velocity = 0.0, 0.0
         arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
         if self._ended:
             arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
         spill(self._world)
+
+    def _ease_off(self) -> None:
+        """Give way, back along where the arm came from, while what it pressed together comes apart again."""
+        arm, world = self._world.arm, self._world
+        x, y = arm.carrier.velocity
+        slow = EASE_SPEED / max(math.hypot(x, y), EASE_SPEED)
+        arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
+        arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
+        until = world.tick + EASE_STEPS
+        while world.tick < until:
+            share = slow if overlap(world) > EASED else 0.0
+            arm.carrier.velocity = arm.body.velocity = -share * x, -share * y
+            self._advance(world.tick + 1)
 
     def _settle(self, settle: Settle) -> None:
         """Wait until everything has been calm for long enough."""

@@ -14,9 +14,7 @@ TOUCH = 5e-4
 
 
 def place_arm(world: World, pose: FloatArray) -> None:
-    """Put the arm, and what it holds, at a fingertip pose ``(3,)``, at rest; only where nothing is in the way."""
-    if world.held is not None:
-        _carry_along(world, pose)
+    """Put the arm at a fingertip pose ``(3,)``, at rest; only where nothing is in the way."""
     for body in (world.arm.body, world.arm.carrier):
         body.position = float(pose[0]), float(pose[1])
         body.angle = float(pose[2])
@@ -25,10 +23,10 @@ def place_arm(world: World, pose: FloatArray) -> None:
     world.parked = False
 
 
-def _carry_along(world: World, pose: FloatArray) -> None:
-    """Move what is held as the fingertip is about to move, without a turn."""
-    held, x, y = world.items[world.held or ""].body, *world.arm.body.position
-    held.position = held.position.x + float(pose[0]) - x, held.position.y + float(pose[1]) - y
+def place_held(world: World, position: FloatArray) -> None:
+    """Put what is held at a position ``(2,)``, at rest, with the turn it has."""
+    held = world.items[world.held or ""].body
+    held.position = float(position[0]), float(position[1])
     held.velocity, held.angular_velocity = (0.0, 0.0), 0.0
 
 
@@ -83,3 +81,12 @@ def hold(world: World, item: Item, command: float) -> None:
     )
     world.space.add(*grip)
     world.grip, world.held, world.command = grip, item.name, command
+
+
+def release(world: World) -> None:
+    """Let go of what is held: it stands on the board again."""
+    item = world.items[world.held or ""]
+    world.space.remove(*world.grip)
+    world.space.add(*item.floor)
+    item.shape.filter = pymunk.ShapeFilter()
+    world.grip, world.held = (), None

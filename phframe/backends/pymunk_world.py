@@ -164,6 +164,17 @@ def note_contact(arbiter: pymunk.Arbiter, _: pymunk.Space, world: World) -> None
     world.touched.append((world.tick, world.names[part], world.names[other], other.collision_type == WALL))
 
 
+def overlap(world: World) -> float:
+    """How deep the arm is in whatever it touches (m): pymunk lets bodies overlap where they press on each other."""
+    depths = [0.0]
+    world.arm.body.each_arbiter(_note_depth, depths)
+    return max(depths)
+
+
+def _note_depth(arbiter: pymunk.Arbiter, depths: list[float]) -> None:
+    depths.extend(-point.distance for point in arbiter.contact_point_set.points)
+
+
 def _add_walls(space: pymunk.Space, scene: Scene, surfaces: Surfaces) -> dict[pymunk.Shape, str]:
     depth, width, t = scene.shelf.depth, scene.shelf.width, WALL_THICKNESS
     corners = {

@@ -15,8 +15,8 @@ from phframe.core.trajectory import Trajectory
 from phframe.core.value import Value
 
 
-@dataclass(frozen=True, slots=True)
-class Setup:
+@dataclass(frozen=True, slots=True, eq=False)
+class Setup(Value):
     """With what an episode was run, by registered names: enough to run it again.
 
     Attributes:

@@ -10,7 +10,7 @@ from phframe.core.corridor import Corridor, Rectangle, Sweep
 from phframe.core.gripper_path import Action
 from phframe.core.state import State
 from phframe.core.topology import PersistenceDiagram
-from phframe.core.value import Ints, Value
+from phframe.core.value import Ints, Value, frozen_ints
 
 
 class Status(StrEnum):
@@ -58,6 +58,10 @@ class Decision(Value):
     sweep: Sweep | None = None
     choices: tuple[str, ...] = ()
     parent: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.labels is not None:
+            object.__setattr__(self, "labels", frozen_ints(self.labels))
 
 
 @dataclass(frozen=True, slots=True)
