@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from phframe.runtime.solve import solve
 
 api_version = 1
-"""Of the interfaces that plugins build on: ``phframe.core``, ``phframe.pushing``, ``phframe.testing``, ``phframe.solve``."""
+"""Of what plugins build on: ``phframe.core``, ``.pushing``, ``.registry``, ``.testing`` and ``phframe.solve``."""
 
 _LAZY = {"solve": "phframe.runtime.solve", "load": "phframe.runtime.files", "save": "phframe.runtime.files"}
 

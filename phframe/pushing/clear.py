@@ -8,7 +8,6 @@ from dataclasses import replace
 from phframe.core import Action, Decision, FloatArray, Infeasible, Plan, State, Status, Task, Transition
 from phframe.pushing.choice import Choice
 from phframe.pushing.options import PushingOptions
-from phframe.pushing.reach import grasp_action
 from phframe.pushing.situation import Pushing, Situation
 
 UNCHANGED = 1e-3
@@ -51,7 +50,7 @@ class Clearing:
                     return self._failed(failure)
                 also = ()
                 continue
-            grasp = grasp_action(self._task.scene, self._state, situation.corridor, self._task.arm, self._options)
+            grasp = self._pushing.grasp(situation)
             if isinstance(grasp, Action):
                 return self._grasp(situation, grasp)
             if not grasp.blockers or not rounds_for_grasp:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,12 +38,25 @@ OUTSIDE = 0.10
 
 
 def grasp_action(
-    scene: Scene, state: State, corridor: Corridor, arm: ArmShape, options: PushingOptions
+    scene: Scene,
+    state: State,
+    corridor: Corridor,
+    arm: ArmShape,
+    options: PushingOptions,
+    rejected: Collection[Action] = (),
 ) -> Action | Infeasible:
     """The reach along the corridor's axis, the grasp and the withdrawal, turned by up to 15 degrees past neighbours.
 
     The link must pass free of obstacles and walls (the paper's success). What is in the way of the yaw with the fewest
     obstacles is named in the result.
+
+    Args:
+        scene: The scene.
+        state: The world at rest.
+        corridor: To the target.
+        arm: Seen from above.
+        options: For the speed.
+        rejected: Actions that are not to be proposed again.
     """
     radius = float(scene.radii[scene.target_index])
     least = Infeasible(f"the target is {2 * radius:g} m wide, too wide for a gripper that opens {arm.max_opening:g} m")
@@ -55,7 +69,10 @@ def grasp_action(
             reach = _Reach(scene, state, corridor.angle + deviation, view, past)
             obstruction = reach.obstruction()
             if obstruction is None:
-                return reach.action(opening, radius, arm.min_opening, options)
+                action = reach.action(opening, radius, arm.min_opening, options)
+                if action not in rejected:
+                    return action
+                obstruction = Infeasible("the arm cannot do any grasp that nothing blocks")
             least = min(obstruction, least, key=_severity)
     return least
 

@@ -184,11 +184,9 @@ class _Run:
         arm = self._execution.arm.shape
         width = corridors[-1].half_width if corridors else corridor_half_width(pushing.half_width, self._scene, arm)
         corridor = find_corridor(self._state.positions[self._scene.target_index], self._scene.shelf, width)
-        return (
-            corridor
-            if isinstance(corridor, Infeasible)
-            else grasp_action(self._scene, self._state, corridor, arm, pushing)
-        )
+        if isinstance(corridor, Infeasible):
+            return corridor
+        return grasp_action(self._scene, self._state, corridor, arm, pushing, self._rejected)
 
     def _grasp_outcome(self) -> tuple[Status, str]:
         step = self._steps[-1]

@@ -31,6 +31,9 @@ def find_scene(spec: str | Path | Scene, options: Mapping[str, Any] | None = Non
             raise InputError(f"a scene file takes no options, but there is: {', '.join(options)}")
         return read_scene(Path(spec).expanduser())
     suite_name, _, name = str(spec).partition("/")
+    suites = [entry.name for entry in catalogue().extensions(Kind.SCENES)]
+    if suite_name not in suites and ":" not in suite_name:
+        raise UnknownNameError("suite of scenes", suite_name, suites, "A scene file ends in .yaml.")
     suite: SceneSuite[Any] = create(Kind.SCENES, suite_name, options)
     if not name:
         raise UnknownNameError("scene", str(spec), [f"{suite_name}/{known}" for known in suite.names()])

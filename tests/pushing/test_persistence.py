@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -30,7 +31,7 @@ def seen(scene: Scene, **options: float) -> tuple[Pushing, Situation, Persistenc
 @given(deaths, st.floats(0.0, 0.2))
 def test_a_death_persists_where_the_next_is_farther_than_the_margin(values: FloatArray, margin: float) -> None:
     persistent = persistent_radii(values, margin).tolist()
-    wanted = [d for d, after in zip(values, [*values[1:], np.inf], strict=True) if after - d > margin]
+    wanted = [d for d, after in pairwise([*values, np.inf]) if after - d > margin]
     assert persistent == wanted
 
 
@@ -83,7 +84,5 @@ def test_how_much_persistence_can_choose_on_the_31_scenes(insertion_width: float
 def test_the_corridor_is_angled_in_five_scenes() -> None:
     corridors = {name: seen(find_scene(name))[1].corridor for name in PUBLISHED}
     angled = {name: abs(np.degrees(each.angle)) for name, each in corridors.items() if each.beside}
-    assert sorted(angled) == [
-        *("papallas/s01", "papallas/s05", "papallas/s08", "vieira/example-06", "vieira/example-08")
-    ]
+    assert {name.partition("/")[2] for name in angled} == {"s01", "s05", "s08", "example-06", "example-08"}
     assert 30.5 < min(angled.values()) < max(angled.values()) < 43.5

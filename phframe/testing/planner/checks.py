@@ -130,7 +130,8 @@ def simulations_are_within_budget(subject: PlannerUnderTest) -> Faults:
             yield from expect(
                 not plan.succeeded, "no success without a simulated action", f"{plan.status}: {plan.reason}"
             )
-    enough = subject.planner.plan(subject.make_task(scene, budget=Budget(60.0, free.cost.simulated_actions)))
+    budget = Budget(60.0, free.cost.simulated_actions)
+    enough = subject.planner.plan(subject.make_task(scene, seed=11, budget=budget))
     yield from expect_equal(enough, free, "the plan with just enough simulated actions, the same as with no limit")
 
 
