@@ -19,8 +19,8 @@ CALM_CHECK = 6
 """Steps between looks at whether all is at rest."""
 START_POSITION, START_YAW = 2e-3, 1e-2
 """How far from the arm (m, rad) a trajectory may begin."""
-EASE_SPEED, EASE_STEPS, EASED = 0.05, 60, 1e-5
-"""How fast (m/s), for how many steps, and down to which overlap (m) a stalled arm gives way."""
+EASE_SPEED, EASE_STEPS, EASE_CHECK, EASED = 0.05, 60, 4, 1e-5
+"""How fast (m/s), for how many steps, looking how often, and down to which overlap (m) a stalled arm gives way."""
 SATURATED = 0.999
 """Share of the force limit at which the drive has nothing left to give."""
 
@@ -210,7 +210,7 @@ class Drive:
         while world.tick < until:
             share = slow if overlap(world) > EASED else 0.0
             arm.carrier.velocity = arm.body.velocity = -share * x, -share * y
-            self._advance(world.tick + 1)
+            self._advance(world.tick + EASE_CHECK)
 
     def _settle(self, settle: Settle) -> None:
         """Wait until everything has been calm for long enough."""

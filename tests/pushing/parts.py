@@ -69,10 +69,37 @@ def distance_from_walls(points: FloatArray, shelf: Shelf) -> FloatArray:
     return np.minimum(np.minimum(*gaps), shelf.depth - x)
 
 
-def distance_from_outlines(points: FloatArray, outlines: Sequence[Outline], pose: FloatArray) -> FloatArray:
-    """Distances ``(k,)`` of points from an arm at a pose, by its boundary: exact to a few tenths of a millimetre."""
-    arm = posed(boundary(outlines, 0.002), *pose)
-    return np.asarray(np.linalg.norm(points[:, None] - arm[None], axis=2).min(axis=1))
+def gap_to_walls(outlines: Sequence[Outline], pose: FloatArray, shelf: Shelf = SHELF) -> float:
+    """Between convex outlines at a pose and the nearest wall; negative where one is inside.
+
+    Nearest is either a corner of an outline to a wall, or an edge to one of the two corners of the mouth; where an edge
+    cuts a wall, points along it lie inside.
+    """
+    deepest = float(distance_from_walls(posed(boundary(outlines), *pose), shelf).min())
+    if deepest < 0.0:
+        return deepest
+    corners = np.array([[0.0, 0.0], [0.0, shelf.width]])
+    gaps = []
+    for outline in outlines:
+        polygon = posed(outline.vertices, *pose)
+        gaps += [distance_from_walls(polygon, shelf).min(), *(_from_polygon(corner, polygon) for corner in corners)]
+    return float(min(gaps))
+
+
+def _from_polygon(point: FloatArray, polygon: FloatArray) -> float:
+    """Distance of a point from a convex counter-clockwise polygon; negative inside."""
+    edges = np.roll(polygon, -1, axis=0) - polygon
+    offset = point - polygon
+    share = np.clip((offset * edges).sum(axis=1) / (edges * edges).sum(axis=1), 0.0, 1.0)
+    distance = float(np.linalg.norm(offset - share[:, None] * edges, axis=1).min())
+    inside = (edges[:, 0] * offset[:, 1] - edges[:, 1] * offset[:, 0] > 0.0).all()
+    return -distance if inside else distance
+
+
+def gaps_to_points(outlines: Sequence[Outline], pose: FloatArray, points: FloatArray) -> FloatArray:
+    """Distances ``(k,)`` of points from convex outlines at a pose; negative inside one."""
+    polygons = [posed(outline.vertices, *pose) for outline in outlines]
+    return np.array([min(_from_polygon(point, polygon) for polygon in polygons) for point in points])
 
 
 def highest(outlines: Sequence[Outline], tilt: float, x: float, direction: int) -> float:
