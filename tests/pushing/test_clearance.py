@@ -44,7 +44,7 @@ def keeps_its_promise(
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-@settings(max_examples=60)
+@settings(max_examples=60, deadline=None)
 @given(
     data=st.data(), heading=headings, distance=st.floats(0.0, 0.8), margin=st.sampled_from([1e-9, 1e-9, 0.002, 0.01])
 )
@@ -64,7 +64,7 @@ def test_parts_may_have_any_number_of_corners(corners: int) -> None:
     keeps_its_promise((round_part,), np.array([0.2, 0.3]), 0.3, 0.5, 0.8, 1e-9)
 
 
-@settings(max_examples=60)
+@settings(max_examples=60, deadline=None)
 @given(yaws, st.floats(-0.3, 0.7), st.floats(-0.1, 0.7))
 def test_free_is_where_the_arm_is_in_no_wall(yaw: float, x: float, y: float) -> None:
     between = gap(ARM.closed, np.array([x, y]), yaw)

@@ -27,7 +27,7 @@ def spans(case: Case) -> bool:
     return bool(across.min() <= RADIUS - HALF_WIDTH and across.max() >= HALF_WIDTH - RADIUS)
 
 
-@settings(max_examples=60)
+@settings(max_examples=60, deadline=None)
 @given(cases())
 def test_towards_the_side_of_the_centre_line_on_which_the_rectangle_lies(case: Case) -> None:
     middle = (case.local[:, 1].min() + case.local[:, 1].max()) / 2.0 - case.corridor.axis

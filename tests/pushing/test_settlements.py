@@ -38,7 +38,7 @@ def test_a_sweep_too_near_to_the_wall_ends_where_the_arm_fits() -> None:
     assert push.sweep.end <= 0.5 - 0.06 - 0.002 + 1e-9
 
 
-@settings(max_examples=60)
+@settings(max_examples=60, deadline=None)
 @given(cases())
 def test_clamped_at_a_wall_the_arm_or_what_it_pushes_is_at_the_wall(case: Case) -> None:
     for push in case.pushes:
@@ -60,7 +60,7 @@ def _room(case: Case, end: float, direction: int, depth: float, tilt: float) -> 
     return float(np.minimum(across, case.shelf.width - across).min())
 
 
-@settings(max_examples=60)
+@settings(max_examples=60, deadline=None)
 @given(millimetres(0.25, 0.4), millimetres(-0.03, 0.03))
 def test_beside_a_target_that_keeps_the_fingertip_out_the_lane_gives_way(x: float, offset: float) -> None:
     """Level with the target, as what blocks a grasp is, nothing is touched at the depth that the target allows."""

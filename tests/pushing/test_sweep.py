@@ -18,7 +18,7 @@ from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, boundary, gap_to_walls,
 from tests.pushing.sweep_cases import Case, cases
 
 KEEP_OFF = 1.2 * RADIUS
-often = settings(max_examples=40)
+often = settings(max_examples=40, deadline=None)
 anything = st.one_of(cases(), cases(straight=True), cases(inside=False))
 
 
