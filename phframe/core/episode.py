@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from phframe.core.errors import InputError
 from phframe.core.gripper_path import Action
 from phframe.core.motion import Motion
 from phframe.core.plan import Cost, Decision, Plan, Status
@@ -13,6 +14,32 @@ from phframe.core.scene import Scene
 from phframe.core.state import Condition, State
 from phframe.core.trajectory import Trajectory
 from phframe.core.value import Value
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """How an episode closes the loop.
+
+    Attributes:
+        max_replans: How often the planner may be asked again.
+        tolerance: An object farther than this (m) from where it was expected calls for a replan.
+        time_limit: Wall time for all planning together (s).
+        simulations: Simulated actions for all planning together; None: no limit.
+
+    Raises:
+        InputError: If a figure is negative or not a number.
+    """
+
+    max_replans: int = 5
+    tolerance: float = 0.01
+    time_limit: float = 300.0
+    simulations: int | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("max_replans", "tolerance", "time_limit", "simulations"):
+            figure = getattr(self, name)
+            if figure is not None and not figure >= 0:
+                raise InputError(f"{name} must be 0 or more, not {figure!r}")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,6 +53,7 @@ class Setup(Value):
         topology: Name of the topology engine.
         seed: Seed of everything random.
         options: Options that differ from the defaults, by ``planner``, ``backend``, ``arm`` or ``topology`` and key.
+        loop: How the loop was closed.
         versions: Versions of phframe and the libraries used.
     """
 
@@ -35,6 +63,7 @@ class Setup(Value):
     topology: str
     seed: int
     options: Mapping[str, Mapping[str, str | float | int | bool | None]] = field(default_factory=dict)
+    loop: Loop = Loop()
     versions: Mapping[str, str] = field(default_factory=dict, compare=False)
 
 
@@ -106,7 +135,7 @@ class Episode(Value):
     @property
     def execution_time(self) -> float:
         """Time the robot moved or waited for rest (simulated or real s)."""
-        return sum(step.motion.duration for step in self.steps)
+        return sum((step.motion.duration for step in self.steps), 0.0)
 
     @property
     def choices(self) -> Counter[str]:

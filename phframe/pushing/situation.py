@@ -25,7 +25,7 @@ from phframe.pushing.grouping import closest_component
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_threshold
 from phframe.pushing.push import push_action
-from phframe.pushing.reach import grasp_action
+from phframe.pushing.reach import Grasp, grasp_action
 from phframe.pushing.sweep import SweepGeometry
 
 WALL_CLEARANCE = 0.002
@@ -59,7 +59,7 @@ class Pushing:
 
     def __init__(self, task: Task, options: PushingOptions) -> None:
         self.task, self.options = task, options
-        self._half_width = corridor_half_width(options.half_width, task.scene, task.arm)
+        self.half_width = corridor_half_width(options.half_width, task.scene, task.arm)
         self._radii = task.scene.radii
         self._view = ArmView(task.scene.shelf, task.arm.closed, WALL_CLEARANCE)
         obstacles = np.delete(self._radii, task.scene.target_index)
@@ -75,7 +75,7 @@ class Pushing:
         scene, row = self.task.scene, self.task.scene.target_index
         if state.conditions[row] is not Condition.UPRIGHT:
             return Infeasible(f"the target {scene.target!r} is {state.conditions[row]}")
-        corridor = find_corridor(state.positions[row], scene.shelf, self._half_width)
+        corridor = find_corridor(state.positions[row], scene.shelf, self.half_width)
         if isinstance(corridor, Infeasible):
             return corridor
         counts = corridor.contains(state.positions) | np.isin(scene.ids, also)
@@ -136,7 +136,7 @@ class Pushing:
             )
             yield decision, action
 
-    def grasp(self, situation: Situation) -> Action | Infeasible:
+    def grasp(self, situation: Situation) -> Grasp | Infeasible:
         """The reach, grasp and withdrawal along the corridor, if the target can be got at without what was rejected."""
         task = self.task
         return grasp_action(task.scene, situation.state, situation.corridor, task.arm, self.options, task.rejected)

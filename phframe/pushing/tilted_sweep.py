@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from phframe.core import Corridor, FloatArray, Rectangle, Sweep
+from phframe.core import MOUTH_CLEARANCE, Corridor, FloatArray, Rectangle, Sweep
 from phframe.pushing.arm_view import ArmView
 from phframe.pushing.choice import Choice
 
@@ -19,8 +19,6 @@ LANE_CLEARANCE = 0.005
 """Between the arm going in and the rectangle (m)."""
 TARGET_CLEARANCE = 1.2
 """The fingertip comes no nearer to the target's centre than this many radii."""
-MOUTH_CLEARANCE = 0.05
-"""How far before the mouth plane the arm starts and ends (m): an object standing in the mouth reaches out by less."""
 ENGAGEMENT = 0.9
 """A fingertip short of a centre by more than this many radii slips off ahead of it."""
 ROUNDING = 1e-6

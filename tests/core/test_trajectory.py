@@ -100,9 +100,10 @@ def test_bad_paths_are_refused(poses: object, phases: tuple, rules: dict, messag
         ({"openings": [0.0]}, "3 legs needs 4 times"),
         ({"poses": [[0.0, 0.0, np.inf]] * 4}, "not finite numbers"),
         ({"force_limit": np.nan}, "not finite numbers"),
-        ({"times": [0.0, 2.0, 1.0, 3.0]}, "must not fall"),
+        ({"times": [0.0, 2.0, 1.0, 3.0]}, "do not fall"),
+        ({"force_limit": -1.0}, "above 0 N"),
     ],
-    ids=["times", "openings", "infinite", "force limit", "falling"],
+    ids=["times", "openings", "infinite", "force limit", "falling", "negative force limit"],
 )
 def test_bad_trajectories_are_refused(change: dict, message: str) -> None:
     timed = time_path(path(), 0.0, 60.0)

@@ -10,6 +10,7 @@ from phframe.core import Action, Decision, Infeasible, Plan, Planner, State, Sta
 from phframe.pushing.choice import Choice
 from phframe.pushing.clear import UNCHANGED
 from phframe.pushing.options import PushingOptions
+from phframe.pushing.outcome import grasp_outcome
 from phframe.pushing.situation import Pushing, Situation
 
 Proposal = tuple[Decision, Action]
@@ -120,10 +121,9 @@ class _Search:
         grasp = self._pushing.grasp(situation)
         if isinstance(grasp, Infeasible):
             return grasp
-        made = self._task.apply(progress.state, grasp)
-        progress.add(Decision(corridor=situation.corridor, parent=progress.last), grasp, made.state)
-        if made.state.held == scene.target:
-            return progress.plan(Status.RETRIEVED)
-        if made.motion.complete:
-            return progress.plan(Status.REACHED, "the fingers closed without holding the target")
-        return progress.plan(Status.CLEARED, "the reach stalled")
+        made = self._task.apply(progress.state, grasp.action)
+        decision = Decision(corridor=situation.corridor, choices=grasp.choices, parent=progress.last)
+        progress.add(decision, grasp.action, made.state)
+        path, half_width = grasp.action.path, self._pushing.half_width
+        done = made.motion.complete
+        return progress.plan(*grasp_outcome(scene, made.state, path, made.motion, at_pose=done, half_width=half_width))
