@@ -18,7 +18,7 @@ from phframe.backends.pymunk_gripper import hold, place_arm, set_opening
 from phframe.backends.pymunk_measures import take_measures
 from phframe.backends.pymunk_snapshot import Snapshot, held_twist, set_in_motion, take_snapshot
 from phframe.backends.pymunk_state import read_state
-from phframe.backends.pymunk_world import Model, Surfaces, World, build_world
+from phframe.backends.pymunk_world import Model, ShelfSpace, Surfaces, build_world
 from phframe.core import (
     ArmError,
     FloatArray,
@@ -47,7 +47,7 @@ class PymunkOptions(Options):
         stall_lag: How far the arm may fall behind its trajectory before it counts as stalled (m).
     """
 
-    step: Annotated[float, Field(gt=0.0, le=0.02)] = 1.0 / 240.0
+    step: Annotated[float, Field(ge=1e-4, le=0.02)] = 1.0 / 240.0
     iterations: Annotated[int, Field(ge=1, le=200)] = 10
     object_friction: Annotated[float, Field(gt=0.0, le=2.0)] = 0.2
     arm_friction: Annotated[float, Field(ge=0.0, le=2.0)] = 0.3
@@ -64,7 +64,7 @@ class PymunkPhysics(Physics[PymunkOptions]):
 
     options_type = PymunkOptions
     executes = GripperTrajectory
-    _world: World | None = None
+    _world: ShelfSpace | None = None
 
     def restore(self, state: State) -> State:
         """Build a new space that holds ``state``."""
@@ -72,8 +72,12 @@ class PymunkPhysics(Physics[PymunkOptions]):
             raise InputError(
                 f"a state of {len(state.poses)} objects is not one of {self.scene.name!r}, which has {len(self.scene.objects)}"
             )
-        if not np.isfinite(state.poses).all():
+        if not (np.isfinite(state.poses).all() and (state.arm is None or np.isfinite(state.arm.gripper).all())):
             raise InputError("a state holds poses that are not finite numbers")
+        if state.held is not None and not state.on_board[self.scene.index(state.held)]:
+            raise InputError(f"{state.held!r} cannot be held, since it has spilled")
+        if state.arm is not None:
+            self.arm.shape.outlines(state.arm.opening)  # refuses an opening that the gripper cannot have
         self._world = world = build_world(self.model, state)
         if state.arm is not None:
             place_arm(world, state.arm.gripper)
@@ -138,7 +142,7 @@ class PymunkPhysics(Physics[PymunkOptions]):
         self._world = None
 
     @property
-    def _current(self) -> World:
+    def _current(self) -> ShelfSpace:
         if self._world is None:
             self.restore(self.scene.initial_state())
         assert self._world is not None

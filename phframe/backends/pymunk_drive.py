@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 
 import numpy as np
 
-from phframe.backends.pymunk_gripper import between_fingers, gripped, hold, place_arm, set_opening
+from phframe.backends.pymunk_gripper import between_fingers, gripped, hold, place_arm, place_held, release, set_opening
 from phframe.backends.pymunk_quiet import free_share, is_still, stays_outside
 from phframe.backends.pymunk_report import motion_of
 from phframe.backends.pymunk_state import is_calm, read_state, refuse_divergence, spill
-from phframe.backends.pymunk_world import World, note_contact
+from phframe.backends.pymunk_world import ShelfSpace, note_contact, overlap
 from phframe.core import FORCE_WINDOW, FloatArray, GripperTrajectory, InputError, Motion, Phase, Settle, Stop, Watch
 
 STRETCH = 30
@@ -19,6 +20,8 @@ CALM_CHECK = 6
 """Steps between looks at whether all is at rest."""
 START_POSITION, START_YAW = 2e-3, 1e-2
 """How far from the arm (m, rad) a trajectory may begin."""
+EASE_SPEED, EASE_STEPS, EASE_CHECK, EASED = 0.05, 60, 4, 1e-5
+"""How fast (m/s), for how many steps, looking how often, and down to which overlap (m) a stalled arm gives way."""
 SATURATED = 0.999
 """Share of the force limit at which the drive has nothing left to give."""
 
@@ -37,7 +40,7 @@ class Drive:
 
     def __init__(
         self,
-        world: World,
+        world: ShelfSpace,
         trajectory: GripperTrajectory,
         *,
         step: float,
@@ -48,7 +51,7 @@ class Drive:
         self._world, self._trajectory, self._step = world, trajectory, step
         self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
         self._ticks = np.rint(trajectory.times / step).astype(int).tolist()
-        self._window = max(1, round(FORCE_WINDOW / step)) if stop is None else 1
+        self._impulses: deque[float] = deque([0.0], max(1, round(FORCE_WINDOW / step)))
         self._period = None if watch is None else max(1, round(watch.period / step))
         self._full_impulse = trajectory.force_limit * step * SATURATED
         self.lag = self.force = 0.0
@@ -103,10 +106,14 @@ class Drive:
         if not (world.at_rest or is_still(world)):
             return
         start = np.array([*world.arm.carrier.position, world.arm.carrier.angle])
+        held = None if world.held is None else np.array(world.items[world.held].body.position)
         begin = world.tick
         free = math.floor(free_share(world, start, target) * (end - begin))
         for world.tick in self._stops(begin, begin + free):
-            place_arm(world, start + (target - start) * ((world.tick - begin) / (end - begin)))
+            way = (target - start) * ((world.tick - begin) / (end - begin))
+            place_arm(world, start + way)
+            if held is not None:
+                place_held(world, held + way[:2])
             self._look()
 
     def _stops(self, begin: int, end: int) -> list[int]:
@@ -121,9 +128,7 @@ class Drive:
         world = self._world
         self._set_speed(self._trajectory.poses[leg + 1], (end - world.tick) * self._step)
         world.at_rest = False
-        while world.tick < until and not self._ended:
-            self._advance(min(world.tick + self._window, until))
-            self._heed_stop()
+        self._advance(until)
         spill(world)
 
     def _open_or_close(self, leg: int, end: int) -> None:
@@ -133,6 +138,11 @@ class Drive:
         if world.at_rest and stays_outside(world, trajectory.poses[leg], trajectory.poses[leg + 1]):
             set_opening(world, last)
             return
+        if world.held is not None and last <= world.opening:
+            world.command = last
+            return
+        if world.held is not None:
+            release(world)
         within_reach = between_fingers(world) if trajectory.phases[leg] is Phase.GRASP else []
         self._set_speed(trajectory.poses[leg + 1], (end - begin) * self._step)
         world.at_rest = False
@@ -140,10 +150,8 @@ class Drive:
             if (item := gripped(world, within_reach)) is not None:
                 hold(world, item, last)
                 return
-            if world.held is None:
-                set_opening(world, first + (last - first) * ((world.tick + 1 - begin) / (end - begin)))
+            set_opening(world, first + (last - first) * ((world.tick + 1 - begin) / (end - begin)))
             self._advance(world.tick + 1)
-            self._heed_stop()
 
     def _set_speed(self, target: FloatArray, duration: float) -> None:
         """Make the carrier arrive at a pose in time; the drive need not accelerate the arm itself."""
@@ -154,18 +162,29 @@ class Drive:
         body.velocity, body.angular_velocity = carrier.velocity, carrier.angular_velocity
 
     def _advance(self, end: int) -> None:
-        """Step to a number of steps and note the mean force on the way; the hot path."""
+        """Step until a number of steps or an end, and keep the mean force of the last 20 ms; the hot path."""
         world, step, dt, drive = self._world, self._world.space.step, self._step, self._world.arm.drive
-        begin, total = world.tick, 0.0
+        impulses, touched, begin = self._impulses, len(world.touched), world.tick
         for world.tick in range(begin + 1, end + 1):
             step(dt)
-            total += drive.impulse
+            impulse = drive.impulse
+            if impulse > 0.0 or impulses[-1] > 0.0:
+                impulses.append(impulse)
+                self._weigh(sum(impulses) / (impulses.maxlen or 1))
             if self._period is not None:
                 self._look()
-        mean = total / (end - begin)
-        self.force = max(self.force, mean / dt)
+            if len(world.touched) > touched and self._stop is not None:
+                self.cause = self.cause or _touch(self._stop, world)
+            if self.stalled or self.cause is not None:
+                return
+
+    def _weigh(self, mean: float) -> None:
+        """Note the mean impulse of a step; where the drive gives all it has, see whether the arm still follows."""
+        self.force = max(self.force, mean / self._step)
         if mean >= self._full_impulse:
             self._note_lag()
+        if self._stop is not None and self._stop.force is not None and mean / self._step > self._stop.force:
+            self.cause = self.cause or f"a force of {mean / self._step:.0f} N"
 
     def _note_lag(self) -> None:
         """The drive gives all it has: see how far the arm is behind, and whether that is a stall."""
@@ -174,18 +193,31 @@ class Drive:
         self.lag = max(self.lag, lag)
         self.stalled = self.stalled or lag > self._stall_lag
 
-    def _heed_stop(self) -> None:
-        if self._stop is not None and self.cause is None:
-            self.cause = _cause(self._stop, self._world, self.force)
-
     def _halt(self) -> None:
         """Stand still, and where the arm could not follow, forget where it should have been."""
         arm = self._world.arm
+        if self.stalled:
+            self._ease_off()
+            self.stalled = True
         arm.carrier.velocity = arm.body.velocity = 0.0, 0.0
         arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
         if self._ended:
             arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
         spill(self._world)
+
+    def _ease_off(self) -> None:
+        """Give way, back along where the arm came from, while what it pressed together comes apart again."""
+        arm, world = self._world.arm, self._world
+        self.stalled = False
+        x, y = arm.carrier.velocity
+        slow = EASE_SPEED / max(math.hypot(x, y), EASE_SPEED)
+        arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
+        arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
+        until = world.tick + EASE_STEPS
+        while world.tick < until:
+            share = slow if overlap(world) > EASED else 0.0
+            arm.carrier.velocity = arm.body.velocity = -share * x, -share * y
+            self._advance(world.tick + EASE_CHECK)
 
     def _settle(self, settle: Settle) -> None:
         """Wait until everything has been calm for long enough."""
@@ -205,18 +237,16 @@ class Drive:
             self._watch.look(self._world.tick * self._step, read_state(self._world))
 
 
-def _refuse_jump(world: World, pose: FloatArray) -> None:
+def _refuse_jump(world: ShelfSpace, pose: FloatArray) -> None:
     x, y = world.arm.body.position
     distance, turn = math.hypot(pose[0] - x, pose[1] - y), abs(float(pose[2]) - world.arm.body.angle)
     if distance > START_POSITION or turn > START_YAW:
         raise InputError(f"the trajectory begins {distance:.3f} m and {turn:.3f} rad from where the arm is")
 
 
-def _cause(stop: Stop, world: World, force: float) -> str | None:
-    """Why a motion must end now, if it must."""
+def _touch(stop: Stop, world: ShelfSpace) -> str | None:
+    """What the arm touches that ends the motion, if anything does."""
     for _, _, name, wall in world.touched:
         if (wall and stop.wall) or name in stop.bodies:
             return f"contact with {'the ' if wall else ''}{name}"
-    if stop.force is not None and force > stop.force:
-        return f"a force of {force:.0f} N"
     return None

@@ -6,17 +6,15 @@ from collections.abc import Sequence
 
 import pymunk
 
-from phframe.backends.pymunk_world import Item, World
+from phframe.backends.pymunk_world import Item, ShelfSpace
 from phframe.core import FloatArray
 
 TOUCH = 5e-4
 """A finger this near (m) to an object touches it."""
 
 
-def place_arm(world: World, pose: FloatArray) -> None:
-    """Put the arm, and what it holds, at a fingertip pose ``(3,)``, at rest; only where nothing is in the way."""
-    if world.held is not None:
-        _carry_along(world, pose)
+def place_arm(world: ShelfSpace, pose: FloatArray) -> None:
+    """Put the arm at a fingertip pose ``(3,)``, at rest; only where nothing is in the way."""
     for body in (world.arm.body, world.arm.carrier):
         body.position = float(pose[0]), float(pose[1])
         body.angle = float(pose[2])
@@ -25,14 +23,14 @@ def place_arm(world: World, pose: FloatArray) -> None:
     world.parked = False
 
 
-def _carry_along(world: World, pose: FloatArray) -> None:
-    """Move what is held as the fingertip is about to move, without a turn."""
-    held, x, y = world.items[world.held or ""].body, *world.arm.body.position
-    held.position = held.position.x + float(pose[0]) - x, held.position.y + float(pose[1]) - y
+def place_held(world: ShelfSpace, position: FloatArray) -> None:
+    """Put what is held at a position ``(2,)``, at rest, with the turn it has."""
+    held = world.items[world.held or ""].body
+    held.position = float(position[0]), float(position[1])
     held.velocity, held.angular_velocity = (0.0, 0.0), 0.0
 
 
-def set_opening(world: World, opening: float) -> None:
+def set_opening(world: ShelfSpace, opening: float) -> None:
     """Put the fingers ``opening`` (m) apart."""
     if opening == world.opening:
         return
@@ -42,12 +40,12 @@ def set_opening(world: World, opening: float) -> None:
     world.opening = world.command = opening
 
 
-def between_fingers(world: World) -> list[Item]:
+def between_fingers(world: ShelfSpace) -> list[Item]:
     """The objects whose centres lie between the open fingers."""
     return [item for item in world.items.values() if all(gap >= 0.0 for gap in _gaps(world, item))]
 
 
-def gripped(world: World, items: Sequence[Item]) -> Item | None:
+def gripped(world: ShelfSpace, items: Sequence[Item]) -> Item | None:
     """Which of some objects both fingers touch, if any does."""
     for item in items:
         gaps = _gaps(world, item)
@@ -56,7 +54,7 @@ def gripped(world: World, items: Sequence[Item]) -> Item | None:
     return None
 
 
-def _gaps(world: World, item: Item) -> list[float]:
+def _gaps(world: ShelfSpace, item: Item) -> list[float]:
     """Distance from each finger's inner face to an object's centre (m); negative where it is not beside the finger."""
     center = world.arm.body.world_to_local(item.body.position)
     return [
@@ -67,7 +65,7 @@ def _gaps(world: World, item: Item) -> list[float]:
     ]
 
 
-def hold(world: World, item: Item, command: float) -> None:
+def hold(world: ShelfSpace, item: Item, command: float) -> None:
     """Join an object to the gripper: it leaves the board and goes where the gripper goes.
 
     Args:
@@ -83,3 +81,12 @@ def hold(world: World, item: Item, command: float) -> None:
     )
     world.space.add(*grip)
     world.grip, world.held, world.command = grip, item.name, command
+
+
+def release(world: ShelfSpace) -> None:
+    """Let go of what is held: it stands on the board again."""
+    item = world.items[world.held or ""]
+    world.space.remove(*world.grip)
+    world.space.add(*item.floor)
+    item.shape.filter = pymunk.ShapeFilter()
+    world.grip, world.held = (), None

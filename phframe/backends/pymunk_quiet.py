@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from phframe.backends.pymunk_world import Item, World
+from phframe.backends.pymunk_world import Item, ShelfSpace
 from phframe.core import FloatArray, turn
 
 MARGIN = 1e-3
@@ -19,7 +19,7 @@ TURN_SAMPLES = 9
 """Poses looked at along a motion that turns."""
 
 
-def is_still(world: World) -> bool:
+def is_still(world: ShelfSpace) -> bool:
     """Whether no object moves at all, leaving out what is held."""
     for item in world.items.values():
         x, y = item.body.velocity
@@ -28,7 +28,7 @@ def is_still(world: World) -> bool:
     return True
 
 
-def free_share(world: World, start: FloatArray, end: FloatArray) -> float:
+def free_share(world: ShelfSpace, start: FloatArray, end: FloatArray) -> float:
     """The share, 0 to 1, of the way between two poses ``(3,)`` on which the arm and what it holds meet nothing."""
     if start[2] != end[2]:
         return 1.0 if stays_outside(world, start, end) else 0.0
@@ -41,13 +41,13 @@ def free_share(world: World, start: FloatArray, end: FloatArray) -> float:
     return _first_hit((points - start[:2]) @ back, radii, lower, upper, (end[:2] - start[:2]) @ back)
 
 
-def _obstacles(world: World, items: list[Item]) -> tuple[FloatArray, FloatArray]:
+def _obstacles(world: ShelfSpace, items: list[Item]) -> tuple[FloatArray, FloatArray]:
     """Centres ``(k, 2)`` and radii ``(k,)`` of the objects and, as points, of the walls' corners at the mouth."""
     points = [*(item.body.position for item in items), (0.0, 0.0), (0.0, world.scene.shelf.width)]
     return np.array(points), np.array([item.radius for item in items] + [0.0, 0.0]) + MARGIN
 
 
-def _boxes(world: World, back: FloatArray, pose: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _boxes(world: ShelfSpace, back: FloatArray, pose: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Least and greatest x and y, ``(m, 2)`` each, of the arm's parts and what it holds, in the fingertip frame (m)."""
     lower, upper = world.measures.boxes_at(world.opening)
     if world.held is None:
@@ -71,7 +71,7 @@ def _first_hit(points: FloatArray, radii: FloatArray, lower: FloatArray, upper: 
     return float(min(1.0, max(0.0, enter[hits].min(initial=1.0))))
 
 
-def _clear_of_walls(world: World, start: FloatArray, end: FloatArray) -> bool:
+def _clear_of_walls(world: ShelfSpace, start: FloatArray, end: FloatArray) -> bool:
     """Whether every corner of the arm stays between the walls, or before the mouth, all the way."""
     corners = world.measures.corners_at(world.opening) @ turn(float(start[2])).T
     if world.held is not None:
@@ -86,13 +86,13 @@ def _before(points: FloatArray) -> NDArray[np.bool_]:
     return points[:, 0] < -MARGIN
 
 
-def _between(world: World, points: FloatArray) -> NDArray[np.bool_]:
+def _between(world: ShelfSpace, points: FloatArray) -> NDArray[np.bool_]:
     shelf = world.scene.shelf
     across = (points[:, 1] > MARGIN) & (points[:, 1] < shelf.width - MARGIN)
     return np.asarray(across & (points[:, 0] < shelf.depth - MARGIN))
 
 
-def stays_outside(world: World, start: FloatArray, end: FloatArray) -> bool:
+def stays_outside(world: ShelfSpace, start: FloatArray, end: FloatArray) -> bool:
     """Whether an empty gripper stays, between two poses, before everything that may stand out of the mouth."""
     reach = -max((item.radius for item in world.items.values()), default=0.0) - MARGIN
     poses = start + np.linspace(0.0, 1.0, TURN_SAMPLES)[:, None] * (end - start)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Protocol
 
-from phframe.backends.pymunk_world import World
+from phframe.backends.pymunk_world import ShelfSpace
 from phframe.core import Contact, GripperTrajectory, Motion
 
 
-class Outcome(Protocol):
+class Run(Protocol):
     """What a run knows at its end: force (N), lag (m), and how it went."""
 
     force: float
@@ -19,11 +19,11 @@ class Outcome(Protocol):
     cause: str | None
 
 
-def motion_of(outcome: Outcome, world: World, trajectory: GripperTrajectory, step: float, followed: int) -> Motion:
+def motion_of(run: Run, world: ShelfSpace, trajectory: GripperTrajectory, step: float, followed: int) -> Motion:
     """The motion of a run that has ended.
 
     Args:
-        outcome: How it went.
+        run: How it went.
         world: As it is now.
         trajectory: What was followed.
         step: Time step (s).
@@ -34,16 +34,16 @@ def motion_of(outcome: Outcome, world: World, trajectory: GripperTrajectory, ste
         duration=world.tick * step,
         contacts=contacts,
         wall_contacts=tuple(_contacts(world, trajectory, step, walls=True)),
-        largest_force=outcome.force,
-        stalled=outcome.stalled,
-        stopped=outcome.cause,
-        tracking_error=outcome.lag,
-        settled=outcome.settled,
+        largest_force=run.force,
+        stalled=run.stalled,
+        stopped=run.cause,
+        tracking_error=run.lag,
+        settled=run.settled,
         followed=followed * step,
     )
 
 
-def _contacts(world: World, trajectory: GripperTrajectory, step: float, *, walls: bool) -> Iterator[Contact]:
+def _contacts(world: ShelfSpace, trajectory: GripperTrajectory, step: float, *, walls: bool) -> Iterator[Contact]:
     """The first contact of each part with each body in each phase."""
     seen = set()
     for tick, part, body, wall in world.touched:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from phframe.backends.pymunk_state import read_state
-from phframe.backends.pymunk_world import World
+from phframe.backends.pymunk_world import ShelfSpace
 from phframe.core import FloatArray, Floats, GripperTrajectory, Phase, State, Value
 
 
@@ -27,7 +27,7 @@ class Snapshot(Value):
         self._freeze("velocities")
 
 
-def take_snapshot(world: World) -> Snapshot:
+def take_snapshot(world: ShelfSpace) -> Snapshot:
     """The world as it is now."""
     still = (0.0, 0.0, 0.0)
     bodies = [world.items[name].body if name in world.items else None for name in world.scene.ids]
@@ -35,7 +35,7 @@ def take_snapshot(world: World) -> Snapshot:
     return Snapshot(read_state(world), np.array(rows))
 
 
-def set_in_motion(world: World, velocities: FloatArray) -> None:
+def set_in_motion(world: ShelfSpace, velocities: FloatArray) -> None:
     """Give the objects of a world that has just been built their speeds ``(n, 3)``."""
     for name, (x, y, spin) in zip(world.scene.ids, velocities.tolist(), strict=True):
         if name in world.items:

@@ -9,7 +9,7 @@ import numpy as np
 import pymunk
 
 from phframe.backends.pymunk_measures import Measures
-from phframe.core import ArmShape, FloatArray, Outline, Scene, SceneObject, State, coulomb_with_board, yaw_of
+from phframe.core import ArmShape, Condition, FloatArray, Outline, Scene, SceneObject, State, coulomb_with_board, yaw_of
 
 GRAVITY = 9.81
 WALL_THICKNESS = 0.1
@@ -73,7 +73,7 @@ class Arm:
 
 
 @dataclass(slots=True)
-class World:
+class ShelfSpace:
     """Everything in one space, and what a State says of it besides poses.
 
     Attributes:
@@ -82,6 +82,7 @@ class World:
         items: Objects on the board or in the hand, by id.
         arm: The arm.
         spilled: Last pose ``(7,)`` of what has left the board, by id.
+        toppled: Ids of what lay on its side when the state was restored.
         names: What each shape is called, of objects, walls and parts of the arm.
         measures: Of the arm.
         opening: Distance between the fingers now (m).
@@ -99,6 +100,7 @@ class World:
     items: dict[str, Item]
     arm: Arm
     spilled: dict[str, FloatArray]
+    toppled: frozenset[str]
     names: dict[pymunk.Shape, str]
     measures: Measures
     opening: float
@@ -132,7 +134,7 @@ class Model:
     arm_mass: float
 
 
-def build_world(model: Model, state: State) -> World:
+def build_world(model: Model, state: State) -> ShelfSpace:
     """A new space that holds ``state``; always new, since a used one remembers what ran in it."""
     scene, shape, surfaces = model.scene, model.shape, model.surfaces
     space = pymunk.Space()
@@ -146,8 +148,11 @@ def build_world(model: Model, state: State) -> World:
         if item.id not in spilled
     }
     arm = _add_arm(space, shape, surfaces, model.arm_mass)
+    toppled = frozenset(name for name, c in zip(scene.ids, state.conditions, strict=True) if c is Condition.TOPPLED)
     closed, names = shape.min_opening, _names(walls, items, arm)
-    world = World(scene, space, items, arm, spilled, names, model.measures, opening=closed, command=closed)
+    world = ShelfSpace(
+        scene, space, items, arm, spilled, toppled, names, model.measures, opening=closed, command=closed
+    )
     for kind in (OBJECT, WALL):
         space.on_collision(ARM, kind, begin=note_contact, data=world)
     return world
@@ -158,10 +163,21 @@ def _names(walls: dict[pymunk.Shape, str], items: dict[str, Item], arm: Arm) -> 
     return {**walls, **objects, **{shape: outline.part for shape, outline in arm.parts}}
 
 
-def note_contact(arbiter: pymunk.Arbiter, _: pymunk.Space, world: World) -> None:
+def note_contact(arbiter: pymunk.Arbiter, _: pymunk.Space, world: ShelfSpace) -> None:
     """Write down that the arm touches something; the arm's shape comes first."""
     part, other = arbiter.shapes
     world.touched.append((world.tick, world.names[part], world.names[other], other.collision_type == WALL))
+
+
+def overlap(world: ShelfSpace) -> float:
+    """How deep the arm is in whatever it touches (m): pymunk lets bodies overlap where they press on each other."""
+    depths = [0.0]
+    world.arm.body.each_arbiter(_note_depth, depths)
+    return max(depths)
+
+
+def _note_depth(arbiter: pymunk.Arbiter, depths: list[float]) -> None:
+    depths.extend(-point.distance for point in arbiter.contact_point_set.points)
 
 
 def _add_walls(space: pymunk.Space, scene: Scene, surfaces: Surfaces) -> dict[pymunk.Shape, str]:

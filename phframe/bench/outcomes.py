@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from statistics import mean, median
 
-from phframe.core import Condition, Corridor, Episode, Status
+from phframe.core import Episode, Status
+from phframe.pushing.outcome import is_cleared
 from phframe.runtime.solve import solve
 
 REACHED = (Status.REACHED, Status.RETRIEVED)
@@ -74,7 +75,7 @@ def tally(planner: str, suite: str, outcomes: Sequence[Outcome]) -> Tally:
         planner,
         suite,
         scenes=len(episodes),
-        cleared=sum(map(is_cleared, episodes)),
+        cleared=sum(map(was_cleared, episodes)),
         reached=sum(episode.status in REACHED for episode in episodes),
         retrieved=len(retrieved),
         clean=sum(episode.clean for episode in episodes),
@@ -84,28 +85,15 @@ def tally(planner: str, suite: str, outcomes: Sequence[Outcome]) -> Tally:
     )
 
 
-def is_cleared(episode: Episode) -> bool:
+def was_cleared(episode: Episode) -> bool:
     """Whether the corridor was empty in the end: in the world, or, where a failed plan was not executed, in the plan."""
     if episode.status in (*REACHED, Status.CLEARED):
         return True
     plan = episode.plans[-1]
     corridors = [decision.corridor for decision in plan.decisions if decision.corridor is not None]
-    return bool(plan.expected and corridors) and _is_empty(episode, corridors[-1])
-
-
-def _is_empty(episode: Episode, last: Corridor) -> bool:
-    """Whether nothing stands in the strip, drawn anew to where the target is."""
-    from phframe.pushing.corridor import find_corridor
-
-    state, scene = episode.plans[-1].expected[-1], episode.scene
-    corridor = find_corridor(state.positions[scene.target_index], scene.shelf, last.half_width)
-    if not isinstance(corridor, Corridor):
-        return False
-    inside = corridor.contains(state.positions) & state.on_board
-    inside[scene.target_index] = False
-    return not inside.any() and state.conditions[scene.target_index] is Condition.UPRIGHT
+    return bool(plan.expected and corridors) and is_cleared(episode.scene, plan.expected[-1], corridors[-1].half_width)
 
 
 def choices(outcomes: Sequence[Outcome]) -> Counter[str]:
-    """How often phframe's settlements of what the paper leaves open were used, over all last plans."""
-    return sum((outcome.episode.plans[-1].choices for outcome in outcomes), Counter())
+    """How often phframe's settlements of what the paper leaves open were used, over all plans."""
+    return sum((plan.choices for outcome in outcomes for plan in outcome.episode.plans), Counter())

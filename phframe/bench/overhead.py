@@ -12,8 +12,8 @@ import pymunk
 
 from phframe.backends.pymunk_ import PymunkPhysics
 from phframe.backends.pymunk_gripper import place_arm
-from phframe.backends.pymunk_world import World, build_world
-from phframe.core import Action, Plan, Planner, State, TopologyEngine, Transition
+from phframe.backends.pymunk_world import ShelfSpace, build_world
+from phframe.core import Action, Plan, Planner, State, TopologyEngine, Transition, Watch
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
@@ -30,7 +30,7 @@ class Overhead:
         scene: Its name.
         planning: Wall time of planning (s), the least of some repeats.
         bare: Wall time of the bare loop over all motions that were simulated, from end to end (s), likewise.
-        bare_stepped: Of the bare loop over as many steps as planning really took (s): it passes over what is free.
+        bare_stepped: Of just the steps that planning took, timed in place (s): it passes over what is free.
         steps: Steps of those motions.
         stepped: Steps that planning really took.
     """
@@ -55,53 +55,66 @@ class Overhead:
 
 def measure(name: str, planner_name: str = "phia") -> Overhead:
     """Plan a scene again and again, and do with bare pymunk what planning did with it."""
-    planner, topology = create(Kind.PLANNER, planner_name), create(Kind.TOPOLOGY, "ripser")
-    with PlanningWorld(WorldSpec(find_scene(name))) as world:
-        applied: list[tuple[State, Action]] = []
-        _plan(world, planner, topology, _noting(world, applied))
-        stepped = _count_steps(lambda: _plan(world, planner, topology, world.apply))
+    planner, topology, spec = (
+        create(Kind.PLANNER, planner_name),
+        create(Kind.TOPOLOGY, "ripser"),
+        WorldSpec(find_scene(name)),
+    )
+    with _NotingWorld(spec) as noting:
+        stepped, stepping = _time_steps(lambda: _plan(noting, planner, topology))
+    with PlanningWorld(spec) as world:
         planning, bare, steps = np.inf, np.inf, 0
         for _ in range(REPEATS):
-            planning = min(planning, _plan(world, planner, topology, world.apply).cost.total)
-            seconds, steps = _bare(world, applied)
+            planning = min(planning, _plan(world, planner, topology).cost.total)
+            seconds, steps = _bare(world, noting.applied)
             bare = min(bare, seconds)
-    return Overhead(name, planning, bare, bare * stepped / max(steps, 1), steps, stepped)
+            stepping = min(stepping, _time_steps(lambda: _plan(world, planner, topology))[1])
+    return Overhead(name, planning, bare, stepping, steps, stepped)
 
 
-def _plan(
-    world: PlanningWorld,
-    planner: Planner[Any],
-    topology: TopologyEngine[Any],
-    apply: Callable[[State, Action], Transition],
-) -> Plan:
-    task = world.task(world.scene.initial_state(), topology, np.random.default_rng(0))
-    task._apply = apply
-    return planner.plan(task)
+class _NotingWorld(PlanningWorld):
+    """A world that notes what is asked of it."""
+
+    def __init__(self, spec: WorldSpec) -> None:
+        super().__init__(spec)
+        self.applied: list[tuple[State, Action]] = []
+
+    def apply(self, state: State, action: Action, watch: Watch | None = None) -> Transition:
+        self.applied.append((state, action))
+        return super().apply(state, action, watch)
 
 
-def _noting(world: PlanningWorld, applied: list[tuple[State, Action]]) -> Callable[[State, Action], Transition]:
-    def apply(state: State, action: Action) -> Transition:
-        applied.append((state, action))
-        return world.apply(state, action)
-
-    return apply
+def _plan(world: PlanningWorld, planner: Planner[Any], topology: TopologyEngine[Any]) -> Plan:
+    return planner.plan(world.task(world.scene.initial_state(), topology, np.random.default_rng(0)))
 
 
-def _count_steps(work: Callable[[], object]) -> int:
-    """How often pymunk is stepped."""
-    count, step = 0, pymunk.Space.step
+def _time_steps(work: Callable[[], object]) -> tuple[int, float]:
+    """How often pymunk is stepped, and how long that takes (s), the clock's own cost taken off."""
+    clock, step = time.perf_counter, pymunk.Space.step
+    count, seconds = 0, 0.0
 
-    def counting(space: pymunk.Space, dt: float) -> None:
-        nonlocal count
-        count += 1
+    def timed(space: pymunk.Space, dt: float) -> None:
+        nonlocal count, seconds
+        began = clock()
         step(space, dt)
+        seconds += clock() - began
+        count += 1
 
-    pymunk.Space.step = counting  # type: ignore[method-assign, assignment]
+    pymunk.Space.step = timed  # type: ignore[method-assign, assignment]
     try:
         work()
     finally:
         pymunk.Space.step = step  # type: ignore[method-assign]
-    return count
+    return count, seconds - count * _clock_cost()
+
+
+def _clock_cost() -> float:
+    """What reading the clock twice adds to a time (s)."""
+    clock, times = time.perf_counter, []
+    for _ in range(1000):
+        began = clock()
+        times.append(clock() - began)
+    return float(np.median(times))
 
 
 def _bare(world: PlanningWorld, applied: Sequence[tuple[State, Action]]) -> tuple[float, int]:
@@ -131,7 +144,7 @@ def _legs(world: PlanningWorld, state: State, action: Action, step: float) -> li
     ]
 
 
-def _loop(built: World, legs: Sequence[tuple[tuple[float, float], int]], dt: float) -> float:
+def _loop(built: ShelfSpace, legs: Sequence[tuple[tuple[float, float], int]], dt: float) -> float:
     step, arm = built.space.step, built.arm
     began = time.perf_counter()
     for velocity, count in legs:

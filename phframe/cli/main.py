@@ -40,12 +40,9 @@ def _top(
 
 
 def _version() -> str:
-    from importlib import metadata
+    from phframe.core.version import own_version
 
-    try:
-        return f"phframe {metadata.version('phframe')}"
-    except metadata.PackageNotFoundError:
-        return "phframe, run from its source tree without being installed"
+    return f"phframe {own_version()}"
 
 
 def main() -> None:

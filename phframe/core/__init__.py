@@ -3,7 +3,7 @@
 from phframe.core.arm import ArmModel, ArmShape, Fingers, Joint, Outline
 from phframe.core.condition import condition_of
 from phframe.core.corridor import Corridor, Rectangle, Sweep
-from phframe.core.episode import Episode, Setup, Step
+from phframe.core.episode import Episode, Loop, Setup, Step
 from phframe.core.errors import (
     ArmError,
     BudgetExceededError,
@@ -17,7 +17,7 @@ from phframe.core.errors import (
     SimulationDivergedError,
     UnknownNameError,
 )
-from phframe.core.gripper_path import Action, Contacts, GripperPath, Phase, PhaseRule
+from phframe.core.gripper_path import MOUTH_CLEARANCE, Action, Contacts, GripperPath, Phase, PhaseRule
 from phframe.core.infeasible import Infeasible
 from phframe.core.motion import FORCE_WINDOW, Contact, Motion, Transition
 from phframe.core.motion_planner import MotionPlanner, Unreachable
@@ -36,6 +36,7 @@ from phframe.core.value import FloatArray, Floats, IntArray, Ints, Value
 
 __all__ = [
     "FORCE_WINDOW",
+    "MOUTH_CLEARANCE",
     "Action",
     "ArmError",
     "ArmModel",
@@ -63,6 +64,7 @@ __all__ = [
     "Ints",
     "Joint",
     "JointTrajectory",
+    "Loop",
     "Motion",
     "MotionPlanner",
     "Mount",

@@ -163,7 +163,11 @@ class ArmModel(ABC, Generic[OptionsT]):
 
     @abstractmethod
     def inverse(self, pose: ArrayLike, seed: ArrayLike | None = None) -> FloatArray | None:
-        """Joint values ``(dof,)`` within limits that put the fingertip at ``pose`` ``(7,)``, near ``seed``, or None."""
+        """Joint values ``(dof,)`` within limits that put the fingertip at ``pose`` ``(7,)``, near ``seed``, or None.
+
+        Raises:
+            ArmError: If ``pose`` is not seven finite numbers.
+        """
 
     @abstractmethod
     def default_mount(self, shelf: Shelf) -> Mount:

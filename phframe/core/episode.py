@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from phframe.core.errors import InputError
 from phframe.core.gripper_path import Action
 from phframe.core.motion import Motion
 from phframe.core.plan import Cost, Decision, Plan, Status
@@ -21,7 +22,33 @@ MOVED = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
-class Setup:
+class Loop:
+    """How an episode closes the loop.
+
+    Attributes:
+        max_replans: How often the planner may be asked again.
+        tolerance: An object farther than this (m) from where it was expected calls for a replan.
+        time_limit: Wall time for all planning together (s).
+        simulations: Simulated actions for all planning together; None: no limit.
+
+    Raises:
+        InputError: If a figure is negative or not a number.
+    """
+
+    max_replans: int = 5
+    tolerance: float = 0.01
+    time_limit: float = 300.0
+    simulations: int | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("max_replans", "tolerance", "time_limit", "simulations"):
+            figure = getattr(self, name)
+            if figure is not None and not figure >= 0:
+                raise InputError(f"{name} must be 0 or more, not {figure!r}")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Setup(Value):
     """With what an episode was run, by registered names: enough to run it again.
 
     Attributes:
@@ -31,6 +58,7 @@ class Setup:
         topology: Name of the topology engine.
         seed: Seed of everything random.
         options: Options that differ from the defaults, by part, such as ``planner`` or ``plan_backend``, and key.
+        loop: How the loop was closed.
         versions: Versions of phframe and the libraries used.
         plan_backend: Name of the physics backend on which it was planned; None: the same.
         plan_arm: Name of the arm for which it was planned; None: the same.
@@ -42,6 +70,7 @@ class Setup:
     topology: str
     seed: int
     options: Mapping[str, Mapping[str, str | float | int | bool | None]] = field(default_factory=dict)
+    loop: Loop = Loop()
     versions: Mapping[str, str] = field(default_factory=dict, compare=False)
     plan_backend: str | None = None
     plan_arm: str | None = None
@@ -126,7 +155,7 @@ class Episode(Value):
     @property
     def execution_time(self) -> float:
         """Time the robot moved or waited for rest (simulated or real s)."""
-        return sum(step.motion.duration for step in self.steps)
+        return sum((step.motion.duration for step in self.steps), 0.0)
 
     @property
     def tracking_error(self) -> float:

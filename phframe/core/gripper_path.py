@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -10,6 +11,9 @@ import numpy as np
 
 from phframe.core.errors import InputError
 from phframe.core.value import Floats, Value
+
+MOUTH_CLEARANCE = 0.05
+"""An arm is out of the shelf when all of it is farther than this (m) before the mouth plane."""
 
 
 class Phase(StrEnum):
@@ -50,6 +54,13 @@ class PhaseRule:
     turn_speed: float = 1.0
     finger_speed: float = 0.1
 
+    def __post_init__(self) -> None:
+        for name in ("speed", "turn_speed", "finger_speed"):
+            if not 0.0 < getattr(self, name) < math.inf:
+                raise InputError(f"a phase's {name} must be a finite number above 0, not {getattr(self, name)!r}")
+        if not 0.0 <= self.opening < math.inf:
+            raise InputError(f"a phase's opening must be a finite number of 0 or more, not {self.opening!r}")
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GripperPath(Value):
@@ -62,7 +73,7 @@ class GripperPath(Value):
         rules: How each phase that occurs is driven.
 
     Raises:
-        InputError: If the lengths disagree, a number is not finite, or a phase has no rule.
+        InputError: If there is no leg, the lengths disagree, a number is not finite, or a phase has no rule.
     """
 
     poses: Floats
@@ -71,6 +82,8 @@ class GripperPath(Value):
 
     def __post_init__(self) -> None:
         self._freeze("poses")
+        if not self.phases:
+            raise InputError("a gripper path needs at least one leg")
         if self.poses.shape != (len(self.phases) + 1, 3):
             raise InputError(
                 f"a path of {len(self.phases)} legs needs {len(self.phases) + 1} poses (x, y, yaw), not {self.poses.shape}"

@@ -61,7 +61,10 @@ class Motion:
         return not self.stalled and self.stopped is None
 
     def then(self, later: Motion) -> Motion:
-        """This motion and a later one as one: what went wrong in either is kept, times run on."""
+        """This motion and the retreat after it as one: what went wrong in either is kept, times run on.
+
+        How much of the trajectory was followed remains as it was: a retreat is not part of it.
+        """
         return Motion(
             duration=self.duration + later.duration,
             contacts=_joined(self.contacts, later.contacts, self.duration),
@@ -71,7 +74,7 @@ class Motion:
             stopped=self.stopped or later.stopped,
             tracking_error=max(self.tracking_error, later.tracking_error),
             settled=later.settled,
-            followed=self.duration + later.followed,
+            followed=self.followed,
         )
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, Protocol, TypeVar, runtime_checkable
 
 from phframe.core.arm import ArmModel
+from phframe.core.errors import InputError
 from phframe.core.motion import Motion, Transition
 from phframe.core.options import Options
 from phframe.core.scene import Mount, Scene
@@ -31,6 +33,10 @@ class Settle:
     speed: float = 0.005
     hold: float = 0.05
     timeout: float = 3.0
+
+    def __post_init__(self) -> None:
+        if not (0.0 < self.speed < math.inf and 0.0 <= self.hold < math.inf and 0.0 < self.timeout < math.inf):
+            raise InputError(f"settling needs finite, positive figures, not {self}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +66,10 @@ class Watch:
 
     period: float
     look: Callable[[float, State], None]
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.period < math.inf:
+            raise InputError(f"the period of a watch must be a finite number above 0, not {self.period!r}")
 
 
 class Physics(ABC, Generic[OptionsT]):

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from phframe.core.corridor import Corridor, Rectangle, Sweep
+from phframe.core.errors import InputError
 from phframe.core.gripper_path import Action
 from phframe.core.state import State
 from phframe.core.topology import PersistenceDiagram
-from phframe.core.value import Ints, Value
+from phframe.core.value import Ints, Value, frozen_ints
 
 
 class Status(StrEnum):
@@ -59,6 +60,10 @@ class Decision(Value):
     choices: tuple[str, ...] = ()
     parent: int | None = None
 
+    def __post_init__(self) -> None:
+        if self.labels is not None:
+            object.__setattr__(self, "labels", frozen_ints(self.labels))
+
 
 @dataclass(frozen=True, slots=True)
 class Cost:
@@ -99,6 +104,9 @@ class Plan(Value):
         expected: The state expected after each action.
         decisions: Why each action was chosen, one per action.
         cost: What planning cost; left out when plans are compared.
+
+    Raises:
+        InputError: If there is not one expected state and one decision per action.
     """
 
     status: Status
@@ -107,6 +115,11 @@ class Plan(Value):
     expected: tuple[State, ...] = ()
     decisions: tuple[Decision, ...] = ()
     cost: Cost = field(default=Cost(), compare=False)
+
+    def __post_init__(self) -> None:
+        lengths = len(self.actions), len(self.expected), len(self.decisions)
+        if len(set(lengths)) > 1:
+            raise InputError(f"a plan needs one expected state and one decision per action, not {lengths}")
 
     @property
     def succeeded(self) -> bool:

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import replace
 from typing import ClassVar, Generic, TypeVar, final
 
-from phframe.core.errors import BudgetExceededError, SimulationDivergedError
+from phframe.core.errors import BudgetExceededError, PluginError, SimulationDivergedError
 from phframe.core.options import Options
 from phframe.core.plan import Plan, Status
 from phframe.core.task import Task
@@ -32,13 +32,19 @@ class Planner(ABC, Generic[OptionsT]):
 
     @final
     def plan(self, task: Task) -> Plan:
-        """Search, and always return a plan: a spent budget or a diverged simulation is a result with a reason."""
+        """Search, and always return a plan: a spent budget or a diverged simulation is a result with a reason.
+
+        Raises:
+            PluginError: If ``search`` returns something else than a plan.
+        """
         try:
             plan = self.search(task)
         except BudgetExceededError as error:
             plan = task.offered or Plan(Status.TIMEOUT, str(error))
         except SimulationDivergedError as error:
             plan = task.offered or Plan(Status.FAILED, str(error))
+        if not isinstance(plan, Plan):
+            raise PluginError(f"planner {type(self).__name__} returned {plan!r} instead of a Plan")
         return replace(plan, cost=task.cost)
 
     @abstractmethod

@@ -45,6 +45,8 @@ class ArmState(Value):
 
     def __post_init__(self) -> None:
         self._freeze("gripper")
+        if self.gripper.shape != (3,):
+            raise InputError(f"a gripper pose is (x, y, yaw), not of shape {self.gripper.shape}")
         if self.joints is not None:
             self._freeze("joints")
 

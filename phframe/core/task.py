@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from phframe.core.arm import ArmShape
-from phframe.core.errors import BudgetExceededError
+from phframe.core.errors import BudgetExceededError, InputError
 from phframe.core.gripper_path import Action
 from phframe.core.motion import Transition
 from phframe.core.plan import Cost, Plan
@@ -24,7 +24,7 @@ Pair = tuple[State, Action]
 
 @dataclass(frozen=True, slots=True)
 class Budget:
-    """How much a planner may spend.
+    """How much a planner may spend. It is looked at before each simulation, which then runs to its end.
 
     Attributes:
         seconds: Wall time; the paper allows 300 s a problem.
@@ -33,6 +33,12 @@ class Budget:
 
     seconds: float = 300.0
     simulations: int | None = None
+
+    def __post_init__(self) -> None:
+        if not self.seconds >= 0.0:
+            raise InputError(f"a budget of {self.seconds!r} s is none: give a number of 0 or more")
+        if self.simulations is not None and self.simulations < 0:
+            raise InputError(f"a budget of {self.simulations!r} simulations is none: give 0 or more")
 
 
 class Task:

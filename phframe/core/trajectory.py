@@ -43,8 +43,10 @@ class GripperTrajectory(Value):
         numbers = (self.times, self.poses, self.openings, np.asarray(self.force_limit))
         if not all(np.isfinite(array).all() for array in numbers):
             raise InputError("a trajectory holds values that are not finite numbers")
-        if samples > 1 and (np.diff(self.times) < 0.0).any():
-            raise InputError("a trajectory's times must not fall")
+        if samples < 2 or (np.diff(self.times) < 0.0).any():
+            raise InputError("a trajectory needs at least one leg, and times that do not fall")
+        if self.force_limit <= 0.0:
+            raise InputError(f"the force limit must be above 0 N, not {self.force_limit:g} N")
 
     @property
     def duration(self) -> float:

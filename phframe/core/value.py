@@ -54,6 +54,10 @@ class Value:
     def __hash__(self) -> int:
         return hash(tuple(_hashable(content) for content in _contents(self)))
 
+    def __reduce__(self) -> tuple[type[Value], tuple[Any, ...]]:
+        """Through the constructor, which freezes the arrays: numpy forgets that they were read-only."""
+        return type(self), tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
+
     def _freeze(self, *names: str) -> None:
         """Replace the named array fields by read-only float copies; for use in ``__post_init__``."""
         for name in names:

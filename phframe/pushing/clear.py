@@ -8,7 +8,8 @@ from dataclasses import replace
 from phframe.core import Action, Decision, FloatArray, Infeasible, Plan, State, Status, Task, Transition
 from phframe.pushing.choice import Choice
 from phframe.pushing.options import PushingOptions
-from phframe.pushing.reach import grasp_action
+from phframe.pushing.outcome import grasp_outcome
+from phframe.pushing.reach import Grasp
 from phframe.pushing.situation import Pushing, Situation
 
 UNCHANGED = 1e-3
@@ -37,6 +38,7 @@ class Clearing:
         self._actions: list[Action] = []
         self._expected: list[State] = []
         self._decisions: list[Decision] = []
+        self._fewest, self._since_progress = len(task.scene.objects), 0
 
     def run(self) -> Plan:
         """Push until the corridor is empty, then grasp."""
@@ -51,8 +53,8 @@ class Clearing:
                     return self._failed(failure)
                 also = ()
                 continue
-            grasp = grasp_action(self._task.scene, self._state, situation.corridor, self._task.arm, self._options)
-            if isinstance(grasp, Action):
+            grasp = self._pushing.grasp(situation)
+            if isinstance(grasp, Grasp):
                 return self._grasp(situation, grasp)
             if not grasp.blockers or not rounds_for_grasp:
                 return self._failed(grasp.reason)
@@ -62,6 +64,8 @@ class Clearing:
         """Carry out one push; why not, where that fails."""
         if len(self._actions) >= self._options.max_actions:
             return f"the corridor is not empty after {len(self._actions)} actions"
+        if self._since_progress >= self._options.patience:
+            return f"the last {self._since_progress} pushes took nothing out of the corridor"
         diagram = self._pushing.diagram(situation)
         radius, choices = self._choose_radius(diagram.finite_deaths, self._pushing.threshold)
         choices = (*choices, Choice.GRASP_BLOCKED) if blocked else choices
@@ -72,16 +76,20 @@ class Clearing:
         if (transition.state.displacement(self._state) <= UNCHANGED).all():
             return f"nothing moved: {action.name}"
         self._keep(decision, action, transition)
+        fewer = len(situation.members) < self._fewest
+        self._fewest = min(self._fewest, len(situation.members))
+        self._since_progress = 0 if fewer else self._since_progress + 1
         return None
 
     def _try_all(self, proposals: Iterator[tuple[Decision, Action]]) -> Tried | None:
         """Simulate the proposals in turn; the first that neither stalls nor spills, else the least bad of them."""
         best: tuple[int, Tried] | None = None
-        for decision, action in proposals:
+        for number, (decision, action) in enumerate(proposals):
             transition = self._task.apply(self._state, action)
             harm = self._harm(transition)
             if best is None or harm < best[0]:
-                best = harm, (decision, action, transition)
+                choices = (*decision.choices, Choice.NEXT_SWEEP) if number else decision.choices
+                best = harm, (replace(decision, choices=choices), action, transition)
             if harm == 0:
                 break
         return best[1] if best else None
@@ -92,15 +100,16 @@ class Clearing:
         unchanged = bool((transition.state.displacement(self._state) <= UNCHANGED).all())
         return spilled + 100 * (not transition.motion.complete) + 10000 * unchanged
 
-    def _grasp(self, situation: Situation, grasp: Action) -> Plan:
+    def _grasp(self, situation: Situation, grasp: Grasp) -> Plan:
         """The last action: reach, grasp, withdraw."""
-        transition = self._task.apply(self._state, grasp)
-        self._keep(Decision(corridor=situation.corridor), grasp, transition)
-        if transition.state.held == self._task.scene.target:
-            return self._plan(Status.RETRIEVED, "")
-        if transition.motion.complete:
-            return self._plan(Status.REACHED, "the fingers closed without holding the target")
-        return self._plan(Status.CLEARED, "the reach stalled")
+        transition = self._task.apply(self._state, grasp.action)
+        self._keep(Decision(corridor=situation.corridor, choices=grasp.choices), grasp.action, transition)
+        motion, half_width = transition.motion, self._pushing.half_width
+        path = grasp.action.path
+        status, reason = grasp_outcome(
+            self._task.scene, self._state, path, motion, at_pose=motion.complete, half_width=half_width
+        )
+        return self._plan(status, reason)
 
     def _keep(self, decision: Decision, action: Action, transition: Transition) -> None:
         parent = len(self._decisions) - 1 if self._decisions else None

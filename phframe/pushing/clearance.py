@@ -27,13 +27,14 @@ class WallClearance:
     """
 
     def __init__(self, shelf: Shelf, outlines: Sequence[Outline], yaw: float, margin: float) -> None:
-        arm = _stacked([outline.vertices @ turn(yaw).T for outline in outlines])
-        walls = _walls(shelf)
-        normals = np.concatenate(np.broadcast_arrays(-_normals(arm)[:, None], _normals(walls)[None]), axis=2)
+        arm, walls = _stacked([outline.vertices @ turn(yaw).T for outline in outlines]), _walls(shelf)
+        normals = _of_pairs(-_normals(arm), _normals(walls))
         over_walls = np.einsum("wvd,awkd->awkv", walls, normals).max(axis=3)
         over_arm = np.einsum("avd,awkd->awkv", -arm, normals).max(axis=3)
+        # What has no length has no normal, and bounds nothing.
+        bounds = np.where(normals.any(axis=3), over_walls + over_arm + margin, np.inf)
         self._normals = normals.reshape(-1, *normals.shape[2:])
-        self._offsets = (over_walls + over_arm + margin).reshape(len(self._normals), -1)
+        self._offsets = bounds.reshape(len(self._normals), -1)
 
     def travel(self, start: FloatArray, direction: FloatArray, distance: float) -> float:
         """How far the fingertip can move (m, at most ``distance``) from ``start`` ``(2,)`` along a unit vector ``(2,)``."""
@@ -49,6 +50,14 @@ class WallClearance:
     def is_free(self, position: FloatArray) -> bool:
         """Whether the arm with its fingertip at ``(2,)`` keeps the margin from every wall."""
         return not bool((self._normals @ position < self._offsets).all(axis=1).any())
+
+
+def _of_pairs(arm: FloatArray, walls: FloatArray) -> FloatArray:
+    """The normals ``(a, w, v + u, 2)`` that bound each pair of a part ``(a, v, 2)`` and a wall ``(w, u, 2)``."""
+    pairs = len(arm), len(walls)
+    by_arm = np.broadcast_to(arm[:, None], (*pairs, *arm.shape[1:]))
+    by_wall = np.broadcast_to(walls[None], (*pairs, *walls.shape[1:]))
+    return np.concatenate([by_arm, by_wall], axis=2)
 
 
 def _walls(shelf: Shelf) -> FloatArray:

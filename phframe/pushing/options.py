@@ -19,6 +19,7 @@ class PushingOptions(Options):
         insertion_width: Width of what must fit between two groups (m); 0.018 gives the paper's threshold of 0.08.
         margin: By how much a radius must be persistent, nu (m).
         max_actions: Pushes after which to give up.
+        patience: Pushes in a row that make the obstacles in the way no fewer, after which to give up.
         insert_speed: Going in and out (m/s).
         sweep_speed: Sweeping (m/s).
         reach_speed: Reaching for the target and drawing it out (m/s).
@@ -28,6 +29,7 @@ class PushingOptions(Options):
     insertion_width: Annotated[float, Field(ge=0.0, le=1.0)] = 0.018
     margin: Annotated[float, Field(ge=0.0, le=1.0)] = 0.015
     max_actions: Annotated[int, Field(ge=1, le=1000)] = 30
+    patience: Annotated[int, Field(ge=1, le=1000)] = 5
     insert_speed: Speed = 0.25
     sweep_speed: Speed = 0.2
     reach_speed: Speed = 0.25

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from phframe.core import (
+    MOUTH_CLEARANCE,
     Action,
     ArmShape,
     Contacts,
@@ -22,6 +25,7 @@ from phframe.core import (
     turn,
 )
 from phframe.pushing.arm_view import ArmView
+from phframe.pushing.choice import Choice
 from phframe.pushing.options import PushingOptions
 
 YAW_STEPS = tuple(math.radians(degrees) for degrees in (0, 5, -5, 10, -10, 15, -15))
@@ -30,34 +34,70 @@ FITS = ((0.02, 0.008), (0.01, 0.005), (0.004, 0.003))
 """How far the fingertips go past the target's centre, and the room between it and each open finger (m): wide first."""
 NEIGHBOUR_CLEARANCE = 0.002
 """Between the reaching arm and what it must not touch (m)."""
-MOUTH_CLEARANCE = 0.05
-"""How far before the mouth plane the arm starts (m)."""
+LEAST_AHEAD = 0.2
+"""Least cosine of an arm's yaw: one turned further from the mouth does not come in through it."""
 OUTSIDE = 0.10
 """How far outside the mouth the whole target is drawn (m)."""
 
 
+@dataclass(frozen=True, slots=True)
+class Grasp:
+    """A reach, grasp and withdrawal that nothing blocks.
+
+    Attributes:
+        action: What to do.
+        choices: The settlements it needed, by name.
+    """
+
+    action: Action
+    choices: tuple[Choice, ...] = ()
+
+
 def grasp_action(
-    scene: Scene, state: State, corridor: Corridor, arm: ArmShape, options: PushingOptions
-) -> Action | Infeasible:
+    scene: Scene,
+    state: State,
+    corridor: Corridor,
+    arm: ArmShape,
+    options: PushingOptions,
+    rejected: Collection[Action] = (),
+) -> Grasp | Infeasible:
     """The reach along the corridor's axis, the grasp and the withdrawal, turned by up to 15 degrees past neighbours.
 
     The link must pass free of obstacles and walls (the paper's success). What is in the way of the yaw with the fewest
     obstacles is named in the result.
+
+    Args:
+        scene: The scene.
+        state: The world at rest.
+        corridor: To the target.
+        arm: Seen from above.
+        options: For the speed.
+        rejected: Actions that are not to be proposed again.
     """
     radius = float(scene.radii[scene.target_index])
     least = Infeasible(f"the target is {2 * radius:g} m wide, too wide for a gripper that opens {arm.max_opening:g} m")
-    for past, clearance in FITS:
+    for fit, (past, clearance) in enumerate(FITS):
         opening = 2.0 * (radius + clearance)
         if opening > arm.max_opening:
             continue
         view = ArmView(scene.shelf, arm.outlines(opening), NEIGHBOUR_CLEARANCE)
         for deviation in YAW_STEPS:
+            if math.cos(corridor.angle + deviation) < LEAST_AHEAD:
+                continue
             reach = _Reach(scene, state, corridor.angle + deviation, view, past)
             obstruction = reach.obstruction()
             if obstruction is None:
-                return reach.action(opening, radius, arm.min_opening, options)
+                action = reach.action(opening, radius, arm.min_opening, options)
+                if action not in rejected:
+                    return Grasp(action, _choices(fit, deviation))
+                obstruction = Infeasible("the arm cannot do any grasp that nothing blocks")
             least = min(obstruction, least, key=_severity)
     return least
+
+
+def _choices(fit: int, deviation: float) -> tuple[Choice, ...]:
+    turned = (Choice.GRASP_TURNED,) if deviation else ()
+    return (*turned, Choice.GRASP_TIGHT) if fit else turned
 
 
 def _severity(obstruction: Infeasible) -> tuple[bool, int]:

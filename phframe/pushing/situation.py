@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from phframe.pushing.grouping import closest_component
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_threshold
 from phframe.pushing.push import push_action
+from phframe.pushing.reach import Grasp, grasp_action
 from phframe.pushing.sweep import SweepGeometry
 
 WALL_CLEARANCE = 0.002
@@ -58,7 +59,7 @@ class Pushing:
 
     def __init__(self, task: Task, options: PushingOptions) -> None:
         self.task, self.options = task, options
-        self._half_width = corridor_half_width(options.half_width, task.scene, task.arm)
+        self.half_width = corridor_half_width(options.half_width, task.scene, task.arm)
         self._radii = task.scene.radii
         self._view = ArmView(task.scene.shelf, task.arm.closed, WALL_CLEARANCE)
         obstacles = np.delete(self._radii, task.scene.target_index)
@@ -74,7 +75,7 @@ class Pushing:
         scene, row = self.task.scene, self.task.scene.target_index
         if state.conditions[row] is not Condition.UPRIGHT:
             return Infeasible(f"the target {scene.target!r} is {state.conditions[row]}")
-        corridor = find_corridor(state.positions[row], scene.shelf, self._half_width)
+        corridor = find_corridor(state.positions[row], scene.shelf, self.half_width)
         if isinstance(corridor, Infeasible):
             return corridor
         counts = corridor.contains(state.positions) | np.isin(scene.ids, also)
@@ -97,12 +98,30 @@ class Pushing:
             radius: At which to group (m).
             choices: Settlements that led to the radius.
         """
-        ids, local, corridor = self.task.scene.ids, situation.local, situation.corridor
-        labels = self.task.components(local, radius)
-        chosen = closest_component(local, labels, corridor.axis)
+        labels = self.task.components(situation.local, radius)
+        chosen = closest_component(situation.local, labels, situation.corridor.axis)
+        persistent = persistent_radii(diagram.finite_deaths, self.options.margin)
+        for decision, action in self.sweeps(situation, chosen):
+            grouped = replace(
+                decision,
+                diagram=diagram,
+                persistent_radii=tuple(persistent.tolist()),
+                radius=radius,
+                labels=labels,
+                choices=(*choices, *decision.choices),
+            )
+            yield grouped, action
+
+    def sweeps(self, situation: Situation, chosen: IntArray) -> Iterator[tuple[Decision, Action]]:
+        """The sweeps of any group of members, best first, without those that were rejected.
+
+        Args:
+            situation: With at least one member.
+            chosen: Indices ``(k,)`` of the group among the members.
+        """
+        ids, corridor = self.task.scene.ids, situation.corridor
         names = tuple(ids[row] for row in situation.members[chosen])
         geometry = self._geometry(situation, chosen)
-        persistent = persistent_radii(diagram.finite_deaths, self.options.margin)
         for push in geometry.pushes():
             action = push_action(corridor, push.sweep, names, self.task.arm.min_opening, self.options)
             if action in self.task.rejected:
@@ -110,16 +129,17 @@ class Pushing:
             decision = Decision(
                 corridor=corridor,
                 members=tuple(ids[row] for row in situation.members),
-                diagram=diagram,
-                persistent_radii=tuple(persistent.tolist()),
-                radius=radius,
-                labels=labels,
                 chosen=names,
                 rectangle=geometry.rectangle,
                 sweep=push.sweep,
-                choices=(*choices, *push.choices),
+                choices=push.choices,
             )
             yield decision, action
+
+    def grasp(self, situation: Situation) -> Grasp | Infeasible:
+        """The reach, grasp and withdrawal along the corridor, if the target can be got at without what was rejected."""
+        task = self.task
+        return grasp_action(task.scene, situation.state, situation.corridor, task.arm, self.options, task.rejected)
 
     def _geometry(self, situation: Situation, chosen: IntArray) -> SweepGeometry:
         scene = self.task.scene

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from phframe.core import Corridor, FloatArray
 from phframe.pushing.arm_view import ArmView
 from phframe.pushing.choice import Choice
 from phframe.pushing.grouping import bounding_rectangle
+from phframe.pushing.reach import LEAST_AHEAD
 from phframe.pushing.tilted_sweep import Choices, Component, Direction, Push, TiltedSweep
 
 TILTS = tuple(math.radians(degrees) for degrees in (0.0, 10.0, -10.0, 20.0, -20.0, 30.0, -30.0))
@@ -42,18 +44,21 @@ class SweepGeometry:
         In each direction, the paper's before the other, the one that clears with the least tilt; then those that fit at
         the least tilt but do not clear.
         """
-        direction, choices = self._direction()
+        direction = self._direction()
         other: Direction = -1 if direction == 1 else 1
         second_best: list[Push] = []
-        for way, settled in ((direction, choices), (other, (*choices, Choice.OTHER_DIRECTION))):
-            pushes = list(_until_one_clears(self._tilted(way, settled)))
+        for way, choices in ((direction, ()), (other, (self._why_other(other),))):
+            pushes = list(_until_one_clears(self._tilted(way, choices)))
             if pushes and pushes[-1].clears:
                 yield pushes[-1]
             second_best += [push for push in pushes[:1] if not push.clears]
-        yield from second_best
+        for push in second_best:
+            yield replace(push, choices=(*push.choices, Choice.NOT_CLEARING))
 
     def _tilted(self, direction: Direction, choices: Choices) -> Iterator[Push]:
         for tilt in TILTS if self._has_room(direction) else TILTS[:1]:
+            if math.cos(self._corridor.angle + tilt) < LEAST_AHEAD:
+                continue
             settled = (*choices, Choice.TILTED) if tilt else choices
             sweep = TiltedSweep(
                 self._corridor,
@@ -74,21 +79,22 @@ class SweepGeometry:
         across = corridor.to_shelf(np.column_stack([members[:, 0], np.full(len(members), edge)]))[:, 1]
         return bool(((across > self._radius) & (across < self._shelf.width - self._radius)).all())
 
-    def _direction(self) -> tuple[Direction, Choices]:
+    def _direction(self) -> Direction:
         """The paper's: towards the side of the corridor's centre line on which the rectangle lies."""
         corridor, rectangle = self._corridor, self.rectangle
-        reach = corridor.half_width - self._radius
-        if rectangle.lower[1] <= corridor.axis - reach and rectangle.upper[1] >= corridor.axis + reach:
-            return self._away_from_nearer_wall(), (Choice.SPANS_CORRIDOR,)
         offset = float(rectangle.center[1]) - corridor.axis
         if offset == 0.0:
             middle = corridor.to_local(np.array([self._shelf.depth / 2.0, self._shelf.width / 2.0]))
-            return (-1 if rectangle.center[1] <= middle[1] else 1), ()
-        return (1 if offset > 0.0 else -1), ()
+            return -1 if rectangle.center[1] <= middle[1] else 1
+        return 1 if offset > 0.0 else -1
 
-    def _away_from_nearer_wall(self) -> Direction:
-        center = self._corridor.to_shelf(self.rectangle.center)
-        return 1 if center[1] <= self._shelf.width / 2.0 else -1
+    def _why_other(self, direction: Direction) -> Choice:
+        """Why to push in this direction, which is not the paper's."""
+        corridor, rectangle = self._corridor, self.rectangle
+        reach = corridor.half_width - self._radius
+        spans = rectangle.lower[1] <= corridor.axis - reach and rectangle.upper[1] >= corridor.axis + reach
+        from_nearer = direction == (1 if corridor.to_shelf(rectangle.center)[1] <= self._shelf.width / 2.0 else -1)
+        return Choice.SPANS_CORRIDOR if spans and from_nearer else Choice.OTHER_DIRECTION
 
 
 def _until_one_clears(pushes: Iterator[Push]) -> Iterator[Push]:

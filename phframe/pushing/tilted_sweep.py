@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from phframe.core import Corridor, FloatArray, Rectangle, Sweep
+from phframe.core import MOUTH_CLEARANCE, Corridor, FloatArray, Rectangle, Sweep
 from phframe.pushing.arm_view import ArmView
 from phframe.pushing.choice import Choice
 
@@ -19,10 +19,10 @@ LANE_CLEARANCE = 0.005
 """Between the arm going in and the rectangle (m)."""
 TARGET_CLEARANCE = 1.2
 """The fingertip comes no nearer to the target's centre than this many radii."""
-MOUTH_CLEARANCE = 0.05
-"""How far before the mouth plane the arm starts and ends (m): an object standing in the mouth reaches out by less."""
 ENGAGEMENT = 0.9
 """A fingertip short of a centre by more than this many radii slips off ahead of it."""
+ROUNDING = 1e-6
+"""Kept from every limit (m), so that no answer hangs on rounding."""
 SHORTEST_SWEEP = 1e-3
 """A sweep shorter than this (m) moves nothing."""
 EDGE_SURPLUS = 1e-3
@@ -163,7 +163,8 @@ class TiltedSweep:
         pushed = sweep.end + sweep.direction * (sides + radius)
         outside = (pushed - self._corridor.axis) * sweep.direction > self._corridor.half_width
         across = self._corridor.to_shelf(np.column_stack([self._component.centers[:, 0], pushed]))[:, 1]
-        return bool((outside & (across >= radius) & (across <= self._shelf.width - radius)).all())
+        room = (across >= radius - ROUNDING) & (across <= self._shelf.width - radius + ROUNDING)
+        return bool((outside & room).all())
 
     def _limits(self, depth: float) -> tuple[float, float] | None:
         """Least and greatest y of the fingertip at a depth (m); None where the arm does not fit at all."""
@@ -173,7 +174,8 @@ class TiltedSweep:
             return None
         across = np.array([-math.sin(angle), math.cos(angle)])
         far = self._shelf.depth + self._shelf.width
-        return axis - self._walls.travel(start, -across, far), axis + self._walls.travel(start, across, far)
+        south, north = (self._walls.travel(start, way * across, far) - ROUNDING for way in (-1.0, 1.0))
+        return axis - south, axis + north
 
     def _with_ways(self, depth: float, lane: float, end: float) -> Sweep | None:
         """Add the straight ways in and out, from where the whole arm is before the mouth; None where a wall is in it."""

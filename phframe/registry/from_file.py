@@ -10,6 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from phframe.core.errors import InputError, PluginError, UnknownNameError
+from phframe.core.paths import user_path
 
 
 def is_file(spec: str) -> bool:
@@ -30,7 +31,7 @@ def load_from_file(spec: str, interface: type) -> Any:
         PluginError: If the file cannot be run; with the line.
     """
     file, name = _split(spec)
-    module = _run(Path(file).expanduser())
+    module = _run(user_path(file))
     known = [key for key, value in vars(module).items() if _is_own(value, interface, module)]
     if not name:
         raise InputError(f"say which class of {file} is meant, such as {file}:{known[0] if known else 'Mine'}")

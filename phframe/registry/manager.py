@@ -11,6 +11,7 @@ from importlib.metadata import EntryPoint
 import pluggy
 
 from phframe.core.errors import PluginError
+from phframe.core.version import own_version
 from phframe.registry import builtin, hookspec
 from phframe.registry.catalogue import HOME, Broken, Catalogue, Entry, named, normalized
 from phframe.registry.extension import API_VERSION, Extension
@@ -49,7 +50,7 @@ def discover(entry_points: Iterable[EntryPoint], only: Collection[str] | None = 
     for point in sorted(entry_points, key=lambda point: (_origin(point), point.name)):
         if wanted is None or _origin(point)[0] in wanted:
             plugins.setdefault(_origin(point), []).append(point)
-    entries = [_entry(extension, HOME, _own_version()) for extension in _ask(builtin)]
+    entries = [_entry(extension, HOME, own_version()) for extension in _ask(builtin)]
     broken = [Broken(name, "", "no such plugin is installed") for name in sorted((wanted or set()) - _names(plugins))]
     for (distribution, version), points in plugins.items():
         try:
@@ -105,13 +106,6 @@ def _names(plugins: Iterable[tuple[str, str]]) -> set[str]:
 def _origin(point: EntryPoint) -> tuple[str, str]:
     """Name and version of the distribution that an entry point comes from."""
     return (normalized(point.dist.name), point.dist.version) if point.dist else ("unknown", "")
-
-
-def _own_version() -> str:
-    try:
-        return metadata.version(HOME)
-    except metadata.PackageNotFoundError:  # run from the source tree
-        return ""
 
 
 def _in_a_line(error: BaseException) -> str:

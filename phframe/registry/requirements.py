@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from importlib import metadata
 from typing import TYPE_CHECKING
 
+from phframe.registry.hookspec import PROJECT
+
 if TYPE_CHECKING:
     from packaging.requirements import Requirement
 
@@ -50,6 +52,8 @@ def _belongs(requirement: Requirement, extra: str | None) -> bool:
 
 
 def _is_installed(name: str) -> bool:
+    if name == PROJECT:  # it is running, perhaps from its source tree
+        return True
     try:
         return bool(metadata.version(name))
     except metadata.PackageNotFoundError:

@@ -12,10 +12,12 @@ from phframe.core import (
     Action,
     Budget,
     Condition,
+    Cost,
     Decision,
     Episode,
     Infeasible,
     JointTrajectory,
+    Loop,
     Phase,
     Plan,
     Planner,
@@ -29,26 +31,13 @@ from phframe.core import (
 )
 from phframe.pushing.corridor import corridor_half_width, find_corridor
 from phframe.pushing.options import PushingOptions
-from phframe.pushing.reach import grasp_action
+from phframe.pushing.outcome import grasp_outcome, is_cleared
+from phframe.pushing.reach import Grasp, grasp_action
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import Observer
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.replay import replay
-
-
-@dataclass(frozen=True, slots=True)
-class Loop:
-    """How an episode closes the loop.
-
-    Attributes:
-        max_replans: How often the planner may be asked again.
-        tolerance: An object farther than this (m) from where it was expected calls for a replan.
-        time_limit: Wall time for all planning together (s).
-    """
-
-    max_replans: int = 5
-    tolerance: float = 0.01
-    time_limit: float = 300.0
+from phframe.runtime.world import WorldSpec
 
 
 def run_episode(
@@ -57,12 +46,12 @@ def run_episode(
     planning: PlanningWorld,
     execution: ExecutionWorld,
     setup: Setup,
-    loop: Loop = Loop(),
+    loop: Loop = Loop(),  # noqa: B008 - immutable
     observers: Sequence[Observer] = (),
 ) -> Episode:
     """Plan in one world and carry the plan out in another, which may be more real.
 
-    A failed plan's actions are not executed. Observers are told as it happens and closed by whoever made them.
+    A failed plan's actions are not executed. Observers are told as it happens; they are not closed here.
 
     Args:
         planner: Makes the plans.
@@ -92,7 +81,6 @@ class _Run:
         self._planner, self._topology, self._planning, self._execution = planner, topology, planning, execution
         self._setup, self._loop, self._observers = setup, loop, observers
         self._scene = execution.scene
-        self._replaying = planning if planning.spec == execution.spec else PlanningWorld(execution.spec)
         self._seeds = np.random.SeedSequence(setup.seed)
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
@@ -128,17 +116,21 @@ class _Run:
                 return status, ""
             if self._lost:
                 return Status.FAILED, f"the target was lost: {reason}"
+            if self._state.held is not None:
+                return Status.FAILED, f"{self._state.held} is in the hand instead of {self._scene.target}"
             if len(self._plans) > self._loop.max_replans:
                 return status, reason
 
     def _plan(self) -> Plan:
         """Ask the planner, with what is left of the time."""
-        spent = sum(plan.cost.total for plan in self._plans)
+        spent, loop = sum((plan.cost for plan in self._plans), Cost()), self._loop
+        simulations = None if loop.simulations is None else max(0, loop.simulations - spent.simulated_actions)
         task = self._planning.task(
             self._state if self._same_arm else replace(self._state, held=None, arm=None),
             self._topology,
             np.random.default_rng(self._seeds.spawn(1)[0]),
-            budget=Budget(max(0.0, self._loop.time_limit - spent)),
+            arm=self._execution.arm.shape,
+            budget=Budget(max(0.0, loop.time_limit - spent.total), simulations),
             rejected=self._rejected,
         )
         self._planned_from = task.start
@@ -169,11 +161,15 @@ class _Run:
         else:
             found = self._find_grasp(plan)
             if isinstance(found, Infeasible):
-                return Status.CLEARED, found.reason
-            action, expected, decision = found, None, Decision()
+                return self._as_it_stands(self._half_width(plan)), found.reason
+            action, expected, decision = found.action, None, Decision(choices=found.choices)
+        half_width = self._half_width(plan)
         if rejection := self._step(action, expected, decision):
-            return Status.CLEARED, rejection
-        return self._grasp_outcome()
+            return self._as_it_stands(half_width), rejection
+        status, reason = self._grasp_outcome(half_width)
+        if status is not Status.RETRIEVED:
+            self._rejected = (*self._rejected, action)
+        return status, reason
 
     def _aimed(self, action: Action, planned: State) -> Action:
         """A planned grasp, moved along with the target to where it is now."""
@@ -181,26 +177,37 @@ class _Run:
         shift = np.append(self._state.positions[row] - planned.positions[row], 0.0)
         return replace(action, path=replace(action.path, poses=action.path.poses + shift))
 
-    def _find_grasp(self, plan: Plan) -> Action | Infeasible:
+    def _find_grasp(self, plan: Plan) -> Grasp | Infeasible:
+        arm, target = self._execution.arm.shape, self._state.positions[self._scene.target_index]
+        corridor = find_corridor(target, self._scene.shelf, self._half_width(plan))
+        if isinstance(corridor, Infeasible):
+            return corridor
+        return grasp_action(self._scene, self._state, corridor, arm, self._pushing_options, self._rejected)
+
+    @property
+    def _pushing_options(self) -> PushingOptions:
         options = self._planner.options
-        pushing = options if isinstance(options, PushingOptions) else PushingOptions()
+        return options if isinstance(options, PushingOptions) else PushingOptions()
+
+    def _half_width(self, plan: Plan) -> float:
+        """Of the corridor that the planner meant, or of the default one."""
         corridors = [decision.corridor for decision in plan.decisions if decision.corridor is not None]
         arm = self._execution.arm.shape
-        width = corridors[-1].half_width if corridors else corridor_half_width(pushing.half_width, self._scene, arm)
-        corridor = find_corridor(self._state.positions[self._scene.target_index], self._scene.shelf, width)
         return (
-            corridor
-            if isinstance(corridor, Infeasible)
-            else grasp_action(self._scene, self._state, corridor, arm, pushing)
+            corridors[-1].half_width
+            if corridors
+            else corridor_half_width(self._pushing_options.half_width, self._scene, arm)
         )
 
-    def _grasp_outcome(self) -> tuple[Status, str]:
+    def _as_it_stands(self, half_width: float) -> Status:
+        """How far it got without a grasp."""
+        return Status.CLEARED if is_cleared(self._scene, self._state, half_width) else Status.FAILED
+
+    def _grasp_outcome(self, half_width: float) -> tuple[Status, str]:
         step = self._steps[-1]
-        if self._state.held == self._scene.target:
-            return Status.RETRIEVED, ""
-        if step.motion.followed < _end_of_reach(step):
-            return Status.CLEARED, "the reach stalled"
-        return Status.REACHED, "the target was not held"
+        at_pose = step.motion.complete or step.motion.followed >= _end_of_reach(step)
+        path = step.action.path
+        return grasp_outcome(self._scene, self._state, path, step.motion, at_pose=at_pose, half_width=half_width)
 
     def _step(self, action: Action, expected: State | None, decision: Decision) -> str:
         """Carry out one action; why not, where the arm cannot."""
@@ -213,7 +220,7 @@ class _Run:
         self._state = self._execution.observe()
         step = Step(action, trajectory, before, self._state, expected, motion, decision, len(self._plans) - 1)
         self._steps.append(step)
-        self._tell(lambda observer: observer.stepped(step, _Frames(self._replaying, step)))
+        self._tell(lambda observer: observer.stepped(step, _Frames(self._planning, self._execution.spec, step)))
         return ""
 
     def _deviation(self, expected: State, action: Action) -> str:
@@ -237,13 +244,18 @@ class _Run:
 
 @dataclass(frozen=True, slots=True)
 class _Frames:
-    """Frames of a step, replayed each time somebody asks for them."""
+    """Frames of a step, replayed each time somebody asks for them, in a world like the one it was carried out in."""
 
-    world: PlanningWorld
+    planning: PlanningWorld
+    spec: WorldSpec
     step: Step
 
     def __iter__(self) -> Iterator[tuple[float, State]]:
-        return replay(self.world, self.step.before, self.step.action)
+        if self.planning.spec == self.spec:
+            yield from replay(self.planning, self.step.before, self.step.action)
+            return
+        with PlanningWorld(self.spec) as world:
+            yield from replay(world, self.step.before, self.step.action)
 
 
 def _end_of_reach(step: Step) -> float:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from phframe.core import Motion, State, Trajectory
+import numpy as np
+
+from phframe.core import Action, Motion, State, Trajectory, Unreachable, compose, inverse, planar_pose
 from phframe.runtime.world import World
 
 
@@ -16,6 +18,24 @@ class ExecutionWorld(World):
     def execute(self, trajectory: Trajectory) -> Motion:
         """Follow a trajectory from where the world is."""
         return self.follow(trajectory)
+
+    def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
+        """As every world, once the arm is known to reach each of the path's poses."""
+        return self._refuse_pose(action) or super().lift(state, action)
+
+    def _refuse_pose(self, action: Action) -> Unreachable | None:
+        """Where the arm's joints cannot take the fingertip, if anywhere."""
+        base, way = inverse(self.mount.pose), 0.0
+        seed = self.arm.home
+        for leg, (x, y, yaw) in enumerate(action.path.poses):
+            if leg:
+                way += float(np.hypot(*(action.path.poses[leg, :2] - action.path.poses[leg - 1, :2])))
+            joints = self.arm.inverse(compose(base, planar_pose(x, y, self.arm.shape.height, yaw)), seed)
+            if joints is None:
+                where = f"({x:.3f}, {y:.3f}) m, yaw {np.degrees(yaw):.0f} degrees"
+                return Unreachable(way, f"arm {self.spec.arm!r} does not reach {where}", leg)
+            seed = joints
+        return None
 
     def observe(self) -> State:
         """The world as it is now."""

@@ -1,4 +1,7 @@
-"""Plans and episodes as files: JSON, written whole or not at all."""
+"""Plans and episodes as files: JSON, written whole or not at all.
+
+What a later phframe of the same format adds is passed over; what changes the meaning gets a new format number.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,8 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from phframe.core import Episode, InputError, Plan, SceneError
+from phframe.core import Episode, InputError, Plan
+from phframe.core.paths import user_path
 
 FORMAT = 1
 """Of the files; a file of a newer one is refused."""
@@ -24,9 +28,11 @@ def save(value: Plan | Episode, path: str | Path) -> Path:
     Raises:
         InputError: If the file cannot be written.
     """
-    kind = next(name for name, cls in _KINDS.items() if isinstance(value, cls))
+    kind = next((name for name, cls in _KINDS.items() if isinstance(value, cls)), None)
+    if kind is None:
+        raise InputError(f"only a Plan or an Episode can be saved, not {value!r}")
     content = TypeAdapter(type(value)).dump_python(value, mode="json")
-    return write_whole(Path(path), json.dumps({"phframe": FORMAT, "kind": kind, kind: content}))
+    return write_whole(user_path(path), json.dumps({"phframe": FORMAT, "kind": kind, kind: content}))
 
 
 def load(path: str | Path) -> Plan | Episode:
@@ -35,29 +41,29 @@ def load(path: str | Path) -> Plan | Episode:
     Raises:
         InputError: If the file cannot be read, is of a newer format or is not a plan or an episode.
     """
-    source = Path(path)
+    source = user_path(path)
     try:
         document = json.loads(source.read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError(f"cannot read {source}: {error.strerror}") from None
-    except (ValueError, RecursionError) as error:
+    except (ValueError, RecursionError, OverflowError) as error:
         raise InputError(f"{source} is not JSON: {error}") from None
     return _decoded(document, source)
 
 
 def _decoded(document: Any, source: Path) -> Plan | Episode:
-    if not isinstance(document, dict) or document.get("kind") not in _KINDS:
+    kind = document.get("kind") if isinstance(document, dict) else None
+    if not isinstance(kind, str) or kind not in _KINDS:
         raise InputError(f"{source} is not a phframe plan or episode")
-    if document.get("phframe") != FORMAT:
+    if type(document.get("phframe")) is not int or document["phframe"] != FORMAT:
         raise InputError(f"{source} is of format {document.get('phframe')!r}; this phframe reads format {FORMAT}")
-    kind = document["kind"]
     try:
         decoded: Plan | Episode = TypeAdapter(_KINDS[kind]).validate_python(document.get(kind))
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(part) for part in first["loc"])
         raise InputError(f"{source}: {where}: {first['msg']} ({error.error_count()} problems in all)") from None
-    except (SceneError, InputError, ValueError, TypeError) as error:
+    except (InputError, ValueError, TypeError, OverflowError) as error:
         raise InputError(f"{source}: {error}") from None
     return decoded
 

@@ -9,10 +9,21 @@ from typing import Any
 
 import numpy as np
 
-from phframe.core import Action, Budget, Motion, State, Task, TopologyEngine, Transition, Unreachable, Watch
+from phframe.core import (
+    Action,
+    ArmShape,
+    Budget,
+    Motion,
+    OptionError,
+    State,
+    Task,
+    TopologyEngine,
+    Transition,
+    Unreachable,
+    Watch,
+)
+from phframe.core.task import Pair
 from phframe.runtime.world import World, WorldSpec
-
-Pair = tuple[State, Action]
 
 
 class PlanningWorld(World):
@@ -25,6 +36,8 @@ class PlanningWorld(World):
 
     def __init__(self, spec: WorldSpec, workers: int = 1) -> None:
         super().__init__(spec)
+        if not workers >= 1 or workers != int(workers):
+            raise OptionError(f"workers must be a whole number of 1 or more, not {workers!r}")
         self._workers = workers
         self._pool: ProcessPoolExecutor | None = None
 
@@ -52,14 +65,24 @@ class PlanningWorld(World):
         topology: TopologyEngine[Any],
         rng: np.random.Generator,
         *,
+        arm: ArmShape | None = None,
         budget: Budget = Budget(),  # noqa: B008 - immutable
         rejected: tuple[Action, ...] = (),
     ) -> Task:
-        """The problem of retrieving the target from a state in this world."""
+        """The problem of retrieving the target from a state in this world.
+
+        Args:
+            start: The state.
+            topology: For the planner.
+            rng: For the planner.
+            arm: The one that will carry the plan out; None: this world's.
+            budget: What the planner may spend.
+            rejected: Actions that could not be carried out.
+        """
         return Task(
             scene=self.scene,
             start=start,
-            arm=self.arm.shape,
+            arm=self.arm.shape if arm is None else arm,
             topology=topology,
             apply=self.apply,
             apply_many=self.apply_many if self._workers > 1 else None,

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from phframe.core import InputError, Scene, SceneSuite, UnknownNameError
+from phframe.core.paths import user_path
 from phframe.registry import Kind, catalogue, create
 from phframe.scenes.reader import read_scene
 from phframe.scenes.spec import is_file_spec
@@ -26,11 +27,16 @@ def find_scene(spec: str | Path | Scene, options: Mapping[str, Any] | None = Non
     """
     if isinstance(spec, Scene):
         return spec
+    if not isinstance(spec, str | Path):
+        raise InputError(f"a scene is 'suite/name', a file or a Scene, not {spec!r}")
     if is_file_spec(spec):
         if options:
             raise InputError(f"a scene file takes no options, but there is: {', '.join(options)}")
-        return read_scene(Path(spec).expanduser())
+        return read_scene(user_path(spec))
     suite_name, _, name = str(spec).partition("/")
+    suites = [entry.name for entry in catalogue().extensions(Kind.SCENES)]
+    if suite_name not in suites and ":" not in suite_name:
+        raise UnknownNameError("suite of scenes", suite_name, suites, "A scene file ends in .yaml.")
     suite: SceneSuite[Any] = create(Kind.SCENES, suite_name, options)
     if not name:
         raise UnknownNameError("scene", str(spec), [f"{suite_name}/{known}" for known in suite.names()])

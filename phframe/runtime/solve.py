@@ -8,9 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from phframe.core import Episode, JointTrajectory, OptionError, Scene, Setup
+from phframe.core import Episode, JointTrajectory, Loop, OptionError, Scene, Setup
 from phframe.registry import Kind, create, load
-from phframe.runtime.episode import Loop, run_episode
+from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import Observer
 from phframe.runtime.planning_world import PlanningWorld
@@ -36,6 +36,7 @@ def solve(
     time_limit: float = 300.0,
     max_replans: int = 5,
     tolerance: float = 0.01,
+    simulations: int | None = None,
     workers: int = 1,
     plan_backend: str | None = None,
     plan_arm: str | None = None,
@@ -52,9 +53,10 @@ def solve(
         seed: Of everything random; the same seed gives the same episode.
         options: By ``planner``, ``backend``, ``arm``, ``plan_backend``, ``plan_arm``, ``topology`` and ``scenes``, then
             by key; values or their text.
-        time_limit: Wall time for planning, replans included (s).
+        time_limit: Wall time for planning, replans included (s); looked at between simulations.
         max_replans: How often to plan again where reality differs.
         tolerance: What counts as differing (m).
+        simulations: Simulated actions for planning, replans included; None: no limit.
         workers: Processes for planners that try many actions at once.
         plan_backend: Registered name of the physics engine to plan in; None: pymunk where ``backend`` drives joints,
             else ``backend``.
@@ -64,31 +66,34 @@ def solve(
     Raises:
         PhframeError: If a name, an option or the scene cannot be used. What cannot be planned is a status, not an error.
     """
-    given = _by_group(options or {})
-    chosen = find_scene(scene, given["scenes"])
-    spec = WorldSpec(chosen, backend, arm, given["backend"], given["arm"])
-    plan_spec = _plan_spec(spec, plan_backend, plan_arm, given)
-    setup = Setup(
-        planner,
-        backend,
-        arm,
-        topology,
-        seed,
-        {k: v for k, v in given.items() if v},
-        versions(backend, plan_spec.backend, topology),
-        plan_spec.backend if plan_spec.backend != backend else None,
-        plan_spec.arm if plan_spec.arm != arm else None,
-    )
     with ExitStack() as stack:
         for observer in observers:
             stack.callback(observer.close)
+        given, loop = _by_group(options or {}), Loop(max_replans, tolerance, time_limit, simulations)
+        if not seed >= 0 or seed != int(seed):
+            raise OptionError(f"a seed is a whole number of 0 or more, not {seed!r}")
+        spec = WorldSpec(find_scene(scene, given["scenes"]), backend, arm, given["backend"], given["arm"])
+        plan_spec = _plan_spec(spec, plan_backend, plan_arm, given)
         search = create(Kind.PLANNER, planner, given["planner"])
         engine = create(Kind.TOPOLOGY, topology, given["topology"])
         planning = stack.enter_context(PlanningWorld(plan_spec, workers))
         execution = stack.enter_context(ExecutionWorld(spec))
-        return run_episode(
-            search, engine, planning, execution, setup, Loop(max_replans, tolerance, time_limit), observers
+        used = {"planner": search, "backend": execution.physics, "arm": execution.arm, "topology": engine}
+        if plan_spec != spec:
+            used |= {"plan_backend": planning.physics, "plan_arm": planning.arm}
+        setup = Setup(
+            planner,
+            backend,
+            arm,
+            topology,
+            seed,
+            _differing(used),
+            loop,
+            versions(backend, plan_spec.backend, topology),
+            plan_spec.backend if plan_spec.backend != backend else None,
+            plan_spec.arm if plan_spec.arm != arm else None,
         )
+        return run_episode(search, engine, planning, execution, setup, loop, observers)
 
 
 def _plan_spec(
@@ -107,8 +112,22 @@ def _plan_spec(
     )
 
 
-def _by_group(options: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, Any]]:
-    for group in options:
-        if group not in OPTION_GROUPS:
+def _differing(parts: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """The options of parts that differ from the defaults, by part and key."""
+    dumped = {name: part.options.model_dump(mode="json", exclude_defaults=True) for name, part in parts.items()}
+    return {name: options for name, options in dumped.items() if options}
+
+
+def _by_group(options: Any) -> dict[str, dict[str, Any]]:
+    """The options of each group, as they were given.
+
+    Raises:
+        OptionError: If they are not mappings from text, or a group does not exist.
+    """
+    groups = {"": options, **options} if isinstance(options, Mapping) else {"": options}
+    for group, given in groups.items():
+        if not (isinstance(given, Mapping) and all(isinstance(key, str) for key in given)):
+            raise OptionError(f"options{f' of {group!r}' if group else ''} must be a mapping by name, not {given!r}")
+        if group and group not in OPTION_GROUPS:
             raise OptionError(f"there are no options of {group!r}; there are those of: {', '.join(OPTION_GROUPS)}")
     return {group: dict(options.get(group, {})) for group in OPTION_GROUPS}

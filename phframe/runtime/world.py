@@ -11,11 +11,13 @@ from typing import Any, Self
 import numpy as np
 
 from phframe.core import (
+    MOUTH_CLEARANCE,
     Action,
     ArmModel,
     Contacts,
     FloatArray,
     GripperPath,
+    IncompatibleError,
     JointTrajectory,
     Motion,
     MotionPlanner,
@@ -25,6 +27,7 @@ from phframe.core import (
     Scene,
     Settle,
     State,
+    Stop,
     Trajectory,
     Unreachable,
     Watch,
@@ -39,8 +42,8 @@ APPROACH_SPEED = 0.5
 """Of the fingertip outside the shelf, where nothing is in the way (m/s)."""
 RETREAT_SPEED = 0.25
 """Of the fingertip that draws back after a stall (m/s)."""
-MOUTH_CLEARANCE = 0.05
-"""How far before the mouth plane an arm that draws back ends (m)."""
+LEAST_AHEAD = 0.2
+"""Cosine of the yaw (rad) beyond which an arm that draws back does not leave the shelf."""
 
 
 LIFT_ATTEMPTS, LIFT_SECONDS = 10, 30.0
@@ -96,9 +99,21 @@ class World:
         self.lifting_time = 0.0
         self.physics: Physics[Any] = backend(spec.scene, self.arm, self.mount, options)
         self._home = _seen_from_above(compose(self.mount.pose, self.arm.forward(self.arm.home)))
+        self._refuse_misfit()
+
+    def _refuse_misfit(self) -> None:
+        """Refuse an arm that stands in the shelf, or does not reach through it."""
+        shelf, arm = self.scene.shelf, self.spec.arm
+        if self._home[0] + self._front(self._home[2]) >= 0.0:
+            raise IncompatibleError(f"arm {arm!r} at its mount {self.mount} stands in the shelf when it is parked")
+        length = -min(float(outline.vertices[:, 0].min()) for outline in self.arm.shape.closed)
+        if length < shelf.depth:
+            raise IncompatibleError(f"arm {arm!r} is {length:g} m long, too short for a shelf {shelf.depth:g} m deep")
 
     def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
         """What to drive to carry out an action from a state: the way to the path's beginning, and the path."""
+        if (refusal := self._refuse_opening(action)) is not None:
+            return refusal
         if self._motion_planner is not None:
             return self._lift_to_joints(self._motion_planner, state, action.path)
         pose = self._home if state.arm is None else state.arm.gripper
@@ -118,9 +133,21 @@ class World:
         finally:
             self.lifting_time += time.perf_counter() - began
 
+    def _refuse_opening(self, action: Action) -> Unreachable | None:
+        """Why the gripper cannot do an action, if it cannot."""
+        shape = self.arm.shape
+        for phase, rule in action.path.rules.items():
+            if not shape.min_opening - 1e-9 <= rule.opening <= shape.max_opening + 1e-9:
+                span = f"from {shape.min_opening:g} to {shape.max_opening:g} m"
+                return Unreachable(0.0, f"the gripper opens {span}, not to {rule.opening:g} m to {phase}")
+        return None
+
     def follow(self, trajectory: Trajectory, watch: Watch | None = None) -> Motion:
-        """Follow a trajectory from where the world is and let things settle; draw straight back after a stall."""
-        motion = self.physics.execute(trajectory, settle=Settle(), watch=watch)
+        """Follow a trajectory from where the world is and let things settle.
+
+        After a stall, or at the first touch of a wall, draw straight back.
+        """
+        motion = self.physics.execute(trajectory, settle=Settle(), stop=Stop(wall=True), watch=watch)
         if motion.complete:
             return motion
         retreat = self._retreat(self.physics.observe())
@@ -138,7 +165,7 @@ class World:
         assert state.arm is not None, "an arm that has stalled is not parked"
         pose, opening = state.arm.gripper, state.arm.commanded_opening
         ahead = np.array([np.cos(pose[2]), np.sin(pose[2])])
-        away = max(0.0, float(pose[0]) + MOUTH_CLEARANCE + self._front(float(pose[2]))) / ahead[0]
+        away = max(0.0, float(pose[0]) + MOUTH_CLEARANCE + self._front(float(pose[2]))) / max(ahead[0], LEAST_AHEAD)
         out = np.array([*(pose[:2] - away * ahead), pose[2]])
         rule = PhaseRule(RETREAT_SPEED, opening, Contacts.OBJECTS)
         path = GripperPath(np.array([pose, out]), (Phase.RETREAT,), {Phase.RETREAT: rule})

@@ -17,6 +17,8 @@ class PhysicsTolerances:
         tracking: How far the fingertip may be from its trajectory where nothing is in the way (m).
         stopping: Relative error of an object's stopping distance.
         force: By which share the largest force may exceed the limit.
+        preload: Force on a stalled arm that is told to stand still (N).
+        phantom_force: Force on an arm that touches nothing (N).
         slipped: How far an object may slip in the hand on its way out (m).
         stands_still: How far a stalled arm may creep in a second (m).
         repeatedly: How often a run is repeated to see whether it gives the same bits.
@@ -29,6 +31,8 @@ class PhysicsTolerances:
     tracking: float
     stopping: float
     force: float
+    preload: float
+    phantom_force: float
     slipped: float
     stands_still: float
     repeatedly: int = 3
@@ -38,10 +42,12 @@ PLANAR = PhysicsTolerances(
     restored=1e-9,
     untouched=1e-6,
     height=1e-9,
-    sunk=1.5e-3,
+    sunk=2e-3,
     tracking=1e-3,
     stopping=0.10,
     force=0.10,
+    preload=10.0,
+    phantom_force=1e-9,
     slipped=2e-3,
     stands_still=1e-3,
 )
@@ -55,6 +61,8 @@ SPATIAL = PhysicsTolerances(
     tracking=8e-3,
     stopping=0.10,
     force=0.50,
+    preload=10.0,
+    phantom_force=1.0,
     slipped=1e-2,
     stands_still=3e-3,
 )

@@ -50,7 +50,7 @@ PLACES = {
 SCENE = Scene(
     "hand/made", Shelf(0.55, 0.61), tuple(SceneObject(i, Cylinder(0.03), at) for i, at in PLACES.items()), target="mug"
 )
-SETUP = Setup("phia", "pymunk", "planar", "ripser", 7, {"planner": {"margin": 0.015}}, {"phframe": "0.1.0"})
+SETUP = Setup("phia", "pymunk", "planar", "ripser", 7, {"planner": {"margin": 0.015}}, versions={"phframe": "0.1.0"})
 CORRIDOR = Corridor(np.zeros(2), 0.0, 0.30, 0.12, -0.05, 0.42)
 RULES = {phase: PhaseRule(0.25, 0.0, Contacts.OBJECTS) for phase in Phase}
 
@@ -76,8 +76,20 @@ def hand_made() -> Recorded:
         _grasp(second, third),
     )
     plans = (
-        Plan(Status.RETRIEVED, actions=(steps[0].action,), expected=(first,), cost=Cost(0.03, 0.002, 0.02, 0.0, 4)),
-        Plan(Status.RETRIEVED, actions=tuple(s.action for s in steps[1:]), expected=(second, third), cost=Cost(0.01)),
+        Plan(
+            Status.RETRIEVED,
+            actions=(steps[0].action,),
+            expected=(first,),
+            decisions=(steps[0].decision,),
+            cost=Cost(0.03, 0.002, 0.02, 0.0, 4),
+        ),
+        Plan(
+            Status.RETRIEVED,
+            actions=tuple(s.action for s in steps[1:]),
+            expected=(second, third),
+            decisions=tuple(s.decision for s in steps[1:]),
+            cost=Cost(0.01),
+        ),
     )
     episode = Episode(SCENE, SETUP, Status.RETRIEVED, "", plans, steps)
     return Recorded(episode, arm_shape(), tuple(tuple(_frames(step)) for step in steps))

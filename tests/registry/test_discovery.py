@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
+import phframe
 from phframe.core.errors import PluginError, UnknownNameError
-from phframe.registry import Catalogue, Kind, catalogue, discover, load
+from phframe.registry import API_VERSION, Catalogue, Kind, catalogue, discover, load
 from phframe.registry.builtin import EXTENSIONS
 from tests.registry.conftest import Discover, Install, entry_points_in, offering
 
@@ -22,6 +23,10 @@ def test_the_builtins_come_through_the_hook() -> None:
     assert [entry.extension for entry in found.entries] == EXTENSIONS
     assert {entry.distribution for entry in found.entries} == {"phframe"}
     assert found.find(Kind.PLANNER, "phia") == found.find(Kind.PLANNER, "phframe:phia")
+
+
+def test_the_version_of_the_interfaces_is_the_same_everywhere() -> None:
+    assert phframe.api_version == API_VERSION
 
 
 def test_a_plugin_is_found_with_its_distribution_and_version(install: Install, found: Discover) -> None:

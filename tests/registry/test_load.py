@@ -102,6 +102,13 @@ def test_a_library_that_the_distribution_itself_needs_may_be_missing_too(
         load(Kind.PLANNER, "straight", found())
 
 
+def test_phframe_itself_is_never_missing(install: Install, found: Discover) -> None:
+    install("one", offering("straight"), requires=("phframe>=0.1", "pluggy"))
+    with pytest.raises(UnknownNameError) as caught:
+        load(Kind.PLANNER, "strait", found())
+    assert caught.value.hint == ""
+
+
 @pytest.mark.parametrize(
     ("line", "requirement"),
     [

@@ -17,7 +17,7 @@ from phframe.topology.single_linkage import SingleLinkage
 ENGINES: list[TopologyEngine[Options]] = [Ripser(Options()), SingleLinkage(Options())]
 every_engine = pytest.mark.parametrize("engine", ENGINES, ids=lambda engine: type(engine).__name__)
 
-properties = settings(deadline=None)
+properties = settings(deadline=None, max_examples=60)
 """A busy machine is not a failure."""
 
 NOTHING = np.empty((0, 2))

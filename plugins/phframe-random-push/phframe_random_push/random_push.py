@@ -2,112 +2,128 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from phframe.core import Action, Decision, Infeasible, Plan, Planner, State, Status, Task, Transition
+from phframe.core import Action, Decision, Infeasible, Plan, Planner, State, Status, Task
+from phframe.pushing.choice import Choice
 from phframe.pushing.clear import UNCHANGED
 from phframe.pushing.options import PushingOptions
-from phframe.pushing.push import push_action
-from phframe.pushing.reach import grasp_action
+from phframe.pushing.outcome import grasp_outcome
 from phframe.pushing.situation import Pushing, Situation
-from phframe.pushing.sweep import Choice, SweepGeometry
 
 Proposal = tuple[Decision, Action]
-
-
-@dataclass(slots=True)
-class Progress:
-    """What has been done so far."""
-
-    state: State
-    steps: list[tuple[Decision, Action, State]] = field(default_factory=list)
-
-    def add(self, proposal: Proposal, transition: Transition) -> None:
-        """Go on from what an action made of the world."""
-        self.steps.append((*proposal, transition.state))
-        self.state = transition.state
-
-    def plan(self, status: Status, reason: str = "") -> Plan:
-        """The actions so far, with the outcome."""
-        decisions, actions, expected = zip(*self.steps, strict=True) if self.steps else ((), (), ())
-        return Plan(status, reason, actions, expected, decisions)
 
 
 class RandomPush(Planner[PushingOptions]):
     """Sweeps a random obstacle of the corridor, alone, in a random direction, until the target is free.
 
-    A sweep that moves nothing is left out of the plan, but counts towards ``max_actions``.
+    A sweep that moves nothing is left out of the plan, but counts as one of the ``max_actions`` attempts.
     """
 
     options_type = PushingOptions
 
     def search(self, task: Task) -> Plan:
         """Sweep at random until the gripper can grasp the target."""
-        pushing, progress = Pushing(task, self.options), Progress(task.start)
-        blockers: tuple[str, ...] = ()
-        for _ in range(self.options.max_actions):
-            situation = pushing.situation(progress.state, blockers)
-            if isinstance(situation, Infeasible):
-                return progress.plan(Status.FAILED, situation.reason)
-            if len(situation.members) == 0:
-                grasp = grasp_action(task.scene, progress.state, situation.corridor, task.arm, self.options)
-                if isinstance(grasp, Action):
-                    return _grasped(task, progress, situation, grasp)
-                if not grasp.blockers:
-                    return progress.plan(Status.FAILED, grasp.reason)
-                blockers = grasp.blockers
-            elif (proposal := self._propose(task, situation)) is None:
-                return progress.plan(Status.FAILED, "no sweep fits beside any obstacle")
-            elif _moved(transition := task.apply(progress.state, proposal[1]), progress.state):
-                progress.add(proposal, transition)
-                blockers = ()
-        return progress.plan(Status.FAILED, f"the target is not free after {self.options.max_actions} attempts")
+        return _Search(task, self.options).run()
 
-    def _propose(self, task: Task, situation: Situation) -> Proposal | None:
+
+@dataclass(slots=True)
+class _Progress:
+    """The plan so far, and the state it leads to."""
+
+    state: State
+    steps: list[tuple[Decision, Action, State]] = field(default_factory=list)
+
+    def add(self, decision: Decision, action: Action, state: State) -> None:
+        self.steps.append((decision, action, state))
+        self.state = state
+
+    @property
+    def last(self) -> int | None:
+        """Index of the last decision."""
+        return len(self.steps) - 1 if self.steps else None
+
+    def plan(self, status: Status, reason: str = "") -> Plan:
+        decisions, actions, expected = zip(*self.steps, strict=True) if self.steps else ((), (), ())
+        return Plan(status, reason, actions, expected, decisions)
+
+
+class _Search:
+    """One run for one task."""
+
+    def __init__(self, task: Task, options: PushingOptions) -> None:
+        self._task, self._options = task, options
+        self._pushing = Pushing(task, options)
+        self._progress = _Progress(task.start)
+
+    def run(self) -> Plan:
+        """Sweep until the corridor is empty and nothing keeps the fingers from the target; then grasp."""
+        blockers: tuple[str, ...] = ()
+        for _ in range(self._options.max_actions):
+            situation = self._pushing.situation(self._progress.state, blockers)
+            if not isinstance(situation, Infeasible) and len(situation.members) == 0:
+                grasp = self._grasp(situation)
+                if isinstance(grasp, Plan):
+                    return grasp
+                blockers = grasp.blockers
+                situation = self._pushing.situation(self._progress.state, blockers) if blockers else grasp
+            if isinstance(situation, Infeasible):
+                return self._progress.plan(Status.FAILED, situation.reason)
+            proposal = self._propose(situation)
+            if proposal is None:
+                return self._progress.plan(Status.FAILED, "no sweep fits beside any obstacle")
+            if self._sweep(*proposal):
+                blockers = ()
+        return self._after_the_last_attempt()
+
+    def _after_the_last_attempt(self) -> Plan:
+        """The grasp, if the last sweep freed the target."""
+        situation = self._pushing.situation(self._progress.state)
+        if not isinstance(situation, Infeasible) and len(situation.members) == 0:
+            grasp = self._grasp(situation)
+            if isinstance(grasp, Plan):
+                return grasp
+        return self._progress.plan(Status.FAILED, f"the target is not free; attempts made: {self._options.max_actions}")
+
+    def _propose(self, situation: Situation) -> Proposal | None:
         """A random direction of the first obstacle, in random order, beside which a sweep fits."""
-        for member in task.rng.permutation(len(situation.members)):
-            proposals = self._sweeps(task, situation, int(member))
+        for member in self._task.rng.permutation(len(situation.members)):
+            proposals = self._proposals(situation, int(member))
             if proposals:
-                return proposals[task.rng.integers(len(proposals))]
+                return proposals[self._task.rng.integers(len(proposals))]
         return None
 
-    def _sweeps(self, task: Task, situation: Situation, member: int) -> list[Proposal]:
-        """The sweeps of one obstacle that fit and were not rejected."""
-        scene, corridor, row = task.scene, situation.corridor, situation.members[member]
-        centre, radius = situation.local[[member]], float(scene.radii[row])
-        target_radius = float(scene.radii[scene.target_index])
-        geometry = SweepGeometry(corridor, centre, radius, target_radius, scene.shelf, task.arm)
-        members = tuple(scene.ids[i] for i in situation.members)
-        proposals = []
-        for push in geometry.pushes():
-            action = push_action(corridor, push.sweep, (scene.ids[row],), self.options)
-            choices = tuple(
-                choice for choice in push.choices if choice is not Choice.OTHER_DIRECTION
-            )  # chance chose it
-            decision = Decision(
-                corridor=corridor,
-                members=members,
-                chosen=action.moves,
-                rectangle=geometry.rectangle,
-                sweep=push.sweep,
-                choices=choices,
-            )
-            if action not in task.rejected:
-                proposals.append((decision, action))
-        return proposals
+    def _proposals(self, situation: Situation, member: int) -> list[Proposal]:
+        """The best sweep of one obstacle in each direction, if one fits that was not rejected."""
+        best: dict[int, Proposal] = {}
+        for decision, action in self._pushing.sweeps(situation, np.array([member])):
+            sweep = decision.sweep
+            assert sweep is not None, "a sweep's decision says which"
+            # Here chance settles the direction, not the paper's silence.
+            choices = tuple(choice for choice in decision.choices if choice != Choice.OTHER_DIRECTION)
+            best.setdefault(sweep.direction, (replace(decision, choices=choices, parent=self._progress.last), action))
+        return list(best.values())
 
+    def _sweep(self, decision: Decision, action: Action) -> bool:
+        """Try a sweep; whether it moved anything."""
+        before = self._progress.state
+        after = self._task.apply(before, action).state
+        if (after.displacement(before) <= UNCHANGED).all():
+            return False
+        self._progress.add(decision, action, after)
+        return True
 
-def _moved(transition: Transition, before: State) -> bool:
-    return bool(np.any(transition.state.displacement(before) > UNCHANGED))
-
-
-def _grasped(task: Task, progress: Progress, situation: Situation, grasp: Action) -> Plan:
-    transition = task.apply(progress.state, grasp)
-    progress.add((Decision(corridor=situation.corridor), grasp), transition)
-    if transition.state.held == task.scene.target:
-        return progress.plan(Status.RETRIEVED)
-    if transition.motion.complete:
-        return progress.plan(Status.REACHED, "the fingers closed without holding the target")
-    return progress.plan(Status.CLEARED, "the reach stalled")
+    def _grasp(self, situation: Situation) -> Plan | Infeasible:
+        """Reach, grasp and withdraw; or why that is not possible."""
+        scene, progress = self._task.scene, self._progress
+        grasp = self._pushing.grasp(situation)
+        if isinstance(grasp, Infeasible):
+            return grasp
+        made = self._task.apply(progress.state, grasp.action)
+        decision = Decision(corridor=situation.corridor, choices=grasp.choices, parent=progress.last)
+        progress.add(decision, grasp.action, made.state)
+        path, half_width = grasp.action.path, self._pushing.half_width
+        done = made.motion.complete
+        return progress.plan(*grasp_outcome(scene, made.state, path, made.motion, at_pose=done, half_width=half_width))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from phframe.core import ArmError, FloatArray, Outline, compose, tilt_of, turn, yaw_of
@@ -38,9 +40,7 @@ def origin_is_at_the_tip(subject: ArmUnderTest) -> Faults:
 
 @check
 def widths_are_those_of_the_outlines(subject: ArmUnderTest) -> Faults:
-    """ArmShape: link_width where it is widest, fingers opened as far as they go included; insertion_width of the closed
-    fingers together.
-    """
+    """ArmShape: link_width where it is widest, open fingers included; insertion_width of the closed fingers together."""
     shape = subject.arm.shape
     widest = _width(shape.outlines(shape.max_opening))
     yield from expect_close(shape.link_width, widest, OUTLINE, "link_width, the width of the widest outline (m)")
@@ -82,9 +82,7 @@ def openings_out_of_range_are_refused(subject: ArmUnderTest) -> Faults:
     """ArmShape.outlines raises ArmError if the gripper cannot open that far."""
     shape = subject.arm.shape
     for opening in (shape.max_opening + 0.01, shape.min_opening - 0.01, float("nan")):
-        yield from expect_raises(
-            ArmError, lambda opening=opening: shape.outlines(opening), f"an opening of {opening:g} m"
-        )  # type: ignore[misc]
+        yield from expect_raises(ArmError, partial(shape.outlines, opening), f"an opening of {opening:g} m")
 
 
 @check

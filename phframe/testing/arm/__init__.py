@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from phframe.core import ArmModel, Shelf
-from phframe.testing.arm_geometry import GEOMETRY_CHECKS
-from phframe.testing.arm_kinematics import KINEMATICS_CHECKS
-from phframe.testing.arm_urdf import URDF_CHECKS
+from phframe.testing.arm.geometry import GEOMETRY_CHECKS
+from phframe.testing.arm.kinematics import KINEMATICS_CHECKS
+from phframe.testing.arm.urdf import URDF_CHECKS
 from phframe.testing.check import Check, Report, run_checks
 from phframe.testing.subjects import DEFAULT_SHELF, ArmUnderTest
+
+__all__ = ["ARM_CHECKS", "check_arm"]
 
 ARM_CHECKS: tuple[Check[ArmUnderTest], ...] = (*KINEMATICS_CHECKS, *GEOMETRY_CHECKS, *URDF_CHECKS)
 

@@ -1,28 +1,19 @@
-"""Checks of topology engines."""
+"""What is checked of a topology engine."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from itertools import pairwise
 
 import numpy as np
-from phframe.testing.subjects import EngineUnderTest
 
-from phframe.core import FloatArray, IntArray, PersistenceDiagram, TopologyEngine, turn
+from phframe.core import FloatArray, IntArray, PersistenceDiagram, turn
 from phframe.core.topology import FLOAT32_SLACK
-from phframe.testing.check import Check, Faults, Report, check, run_checks
+from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_close, expect_equal
-from phframe.testing.points import clear_radii, flood_labels, partition, point_sets, tree_edges
+from phframe.testing.subjects import EngineUnderTest
 from phframe.testing.tolerances import DIAGRAM
-
-
-def check_topology(engine: TopologyEngine[Any]) -> Report:
-    """Check that a topology engine keeps to ``TopologyEngine``.
-
-    Raises:
-        ConformanceError: With every check that failed.
-    """
-    return run_checks(EngineUnderTest(engine), TOPOLOGY_CHECKS)
+from phframe.testing.topology.points import clear_radii, flood_labels, partition, point_sets, tree_edges
 
 
 @check
@@ -59,8 +50,9 @@ def no_points_have_no_components(subject: EngineUnderTest) -> Faults:
 
 @check
 def deaths_are_edges_of_the_minimum_spanning_tree(subject: EngineUnderTest) -> Faults:
-    """PersistenceDiagram: a death is the distance between centres at which components merge (Vietoris-Rips, dimension
-    0), so the deaths are the lengths of the minimum spanning tree's edges; bars of no length are left out.
+    """PersistenceDiagram: a death is the distance at which components merge; bars of no length are left out.
+
+    In dimension 0 of the Vietoris-Rips filtration, deaths are the edge lengths of the minimum spanning tree.
     """
     for name, points in point_sets():
         edges = tree_edges(points)
@@ -115,8 +107,9 @@ def components_are_those_of_single_linkage(subject: EngineUnderTest) -> Faults:
 
 @check
 def components_agree_with_the_diagram(subject: EngineUnderTest) -> Faults:
-    """TopologyEngine: between two deaths there are as many components as bars that are still alive, and at a death
-    (which may have been rounded to float32) the two components have merged.
+    """TopologyEngine: at every radius there are as many components as bars that are still alive.
+
+    At a death, which may have been rounded to float32, the two components have merged.
     """
     for name, points in point_sets():
         deaths = subject.engine.diagram(points).deaths
@@ -135,7 +128,7 @@ def components_only_merge_as_the_radius_grows(subject: EngineUnderTest) -> Fault
     """TopologyEngine.components: a filtration, so what is together at a radius is together at every larger one."""
     for name, points in point_sets():
         radii = sorted(clear_radii(points))
-        for small, large in zip(radii, radii[1:], strict=False):
+        for small, large in pairwise(radii):
             fine, coarse = (partition(subject.engine.components(points, radius)) for radius in (small, large))
             apart = [sorted(part) for part in fine if not any(part <= whole for whole in coarse)]
             yield from expect(not apart, f"{name}: together at {large:g} m what is at {small:g} m", f"apart: {apart}")

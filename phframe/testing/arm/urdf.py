@@ -7,11 +7,11 @@ import xml.etree.ElementTree as ET
 import numpy as np
 
 from phframe.core import compose, inverse
+from phframe.testing.arm.urdf_tree import UrdfTree
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_close, expect_equal
 from phframe.testing.subjects import ArmUnderTest
 from phframe.testing.tolerances import URDF
-from phframe.testing.urdf_tree import UrdfTree
 
 GEOMETRIES = {"box", "cylinder", "sphere"}
 KINDS = {"revolute", "prismatic", "continuous", "fixed"}

@@ -1,0 +1,39 @@
+"""Tasks for the checks of planners, in a real planning world."""
+
+from __future__ import annotations
+
+from weakref import finalize
+
+import numpy as np
+
+from phframe.core import Action, Budget, Scene, State, Task
+from phframe.registry import Kind, create
+from phframe.runtime.planning_world import PlanningWorld
+from phframe.runtime.world import WorldSpec
+from phframe.testing.subjects import MakeTask
+
+
+def simulated_tasks(backend: str = "pymunk", arm: str = "planar", topology: str = "ripser") -> MakeTask:
+    """What makes tasks whose actions are simulated.
+
+    Args:
+        backend: Registered name of the physics backend.
+        arm: Registered name of the arm.
+        topology: Registered name of the topology engine.
+    """
+    engine = create(Kind.TOPOLOGY, topology)
+
+    def make_task(
+        scene: Scene,
+        *,
+        seed: int = 0,
+        start: State | None = None,
+        budget: Budget = Budget(seconds=60.0),  # noqa: B008 - immutable
+        rejected: tuple[Action, ...] = (),
+    ) -> Task:
+        world, rng = PlanningWorld(WorldSpec(scene, backend, arm)), np.random.default_rng(seed)
+        task = world.task(start or scene.initial_state(), engine, rng, budget=budget, rejected=rejected)
+        finalize(task, world.close)
+        return task
+
+    return make_task

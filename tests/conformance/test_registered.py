@@ -1,0 +1,99 @@
+"""The conformance checks over everything that is registered and installed here: one test for each check and extension."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import product
+from typing import Any
+
+import pytest
+
+from phframe.core import GripperTrajectory, IncompatibleError, NotInstalledError
+from phframe.registry import Kind, catalogue, create, load
+from phframe.testing import (
+    ARM_CHECKS,
+    PHYSICS_CHECKS,
+    PLANAR,
+    PLANNER_CHECKS,
+    SPATIAL,
+    TOPOLOGY_CHECKS,
+    ArmUnderTest,
+    Check,
+    EngineUnderTest,
+    NotApplicableError,
+    PhysicsUnderTest,
+    PlannerUnderTest,
+    order_of_objects_does_not_matter,
+    simulated_tasks,
+)
+
+DETERMINISTIC = ("phia", "ooa")
+"""Planners that promise that the order of objects does not matter."""
+
+
+def names(kind: Kind) -> list[str]:
+    return [entry.name for entry in catalogue().extensions(kind)]
+
+
+def each_check(checks: tuple[Check[Any], ...]) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("check", checks, ids=lambda check: check.name)
+
+
+def run(check: Check[Any], subject: object) -> None:
+    try:
+        check(subject)
+    except NotApplicableError as reason:
+        pytest.skip(str(reason))
+
+
+def made(kind: Kind, name: str) -> Any:
+    try:
+        return create(kind, name)
+    except NotInstalledError as error:
+        pytest.skip(str(error))
+
+
+@cache
+def physics(backend: str, arm: str) -> PhysicsUnderTest:
+    loaded = load(Kind.BACKEND, backend)
+    tolerances = PLANAR if loaded.executes is GripperTrajectory else SPATIAL
+    options = loaded.options_type()
+    return PhysicsUnderTest(
+        lambda scene, model, mount: loaded(scene, model, mount, options),
+        create(Kind.ARM, arm),
+        tolerances,
+        name=backend,
+    )
+
+
+@each_check(PHYSICS_CHECKS)
+@pytest.mark.parametrize(("backend", "arm"), list(product(names(Kind.BACKEND), names(Kind.ARM))))
+def test_physics(backend: str, arm: str, check: Check[PhysicsUnderTest]) -> None:
+    try:
+        subject = physics(backend, arm)
+    except (NotInstalledError, IncompatibleError) as error:
+        pytest.skip(str(error))
+    run(check, subject)
+
+
+@each_check(ARM_CHECKS)
+@pytest.mark.parametrize("arm", names(Kind.ARM))
+def test_arm(arm: str, check: Check[ArmUnderTest]) -> None:
+    run(check, ArmUnderTest(made(Kind.ARM, arm)))
+
+
+@each_check(TOPOLOGY_CHECKS)
+@pytest.mark.parametrize("engine", names(Kind.TOPOLOGY))
+def test_topology(engine: str, check: Check[EngineUnderTest]) -> None:
+    run(check, EngineUnderTest(made(Kind.TOPOLOGY, engine)))
+
+
+@each_check(PLANNER_CHECKS)
+@pytest.mark.parametrize("planner", names(Kind.PLANNER))
+def test_planner(planner: str, check: Check[PlannerUnderTest]) -> None:
+    run(check, PlannerUnderTest(made(Kind.PLANNER, planner), simulated_tasks()))
+
+
+@pytest.mark.parametrize("planner", DETERMINISTIC)
+def test_the_order_of_objects_does_not_matter(planner: str) -> None:
+    run(order_of_objects_does_not_matter, PlannerUnderTest(made(Kind.PLANNER, planner), simulated_tasks()))

@@ -1,0 +1,84 @@
+"""Which way is pushed: the paper's rule, and what happens where it does not fit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from phframe.core import Corridor, Shelf
+from phframe.pushing.arm_view import ArmView
+from phframe.pushing.choice import Choice
+from phframe.pushing.sweep import SweepGeometry
+from phframe.pushing.tilted_sweep import Push
+from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS
+from tests.pushing.sweep_cases import Case, cases
+
+TARGET = (0.45, 0.3)
+WIDE = Shelf(0.6, 0.6)
+
+
+def first(case: Case) -> Push:
+    return case.pushes[0]
+
+
+def spans(case: Case) -> bool:
+    across = case.local[:, 1] - case.corridor.axis
+    return bool(across.min() <= RADIUS - HALF_WIDTH and across.max() >= HALF_WIDTH - RADIUS)
+
+
+@settings(max_examples=60, deadline=None)
+@given(cases())
+def test_towards_the_side_of_the_centre_line_on_which_the_rectangle_lies(case: Case) -> None:
+    middle = (case.local[:, 1].min() + case.local[:, 1].max()) / 2.0 - case.corridor.axis
+    if spans(case) or abs(middle) < 1e-9:
+        return
+    for push in case.pushes:
+        follows = push.sweep.direction == (1 if middle > 0.0 else -1)
+        assert (Choice.OTHER_DIRECTION not in push.choices) is follows
+        assert Choice.SPANS_CORRIDOR not in push.choices
+
+
+@pytest.mark.parametrize(("y", "direction"), [(0.31, 1), (0.29, -1), (0.2, -1), (0.4, 1)])
+def test_north_of_the_line_goes_north_and_south_of_it_south(y: float, direction: int) -> None:
+    push = first(Case(WIDE, TARGET, np.array([[0.2, y]])))
+    assert (push.sweep.direction, push.choices) == (direction, ())
+
+
+@pytest.mark.parametrize(("width", "direction"), [(0.6, -1), (0.625, -1), (0.575, 1)])
+def test_on_the_line_the_middle_of_the_shelf_decides(width: float, direction: int) -> None:
+    """``c_R <= c_W``: top to bottom, that is south; else north."""
+    push = first(Case(Shelf(0.6, width), TARGET, np.array([[0.2, 0.25], [0.2, 0.35]])))
+    assert (push.sweep.direction, push.choices) == (direction, ())
+
+
+@pytest.mark.parametrize(("shift", "direction"), [(-0.02, 1), (0.02, -1)])
+def test_what_spans_the_corridor_is_swept_from_the_nearer_wall(shift: float, direction: int) -> None:
+    case = Case(WIDE, (0.45, 0.3 + shift), np.array([[0.2, 0.205 + shift], [0.2, 0.395 + shift]]))
+    assert spans(case)
+    push = first(case)
+    assert (push.sweep.direction, push.choices[0]) == (direction, Choice.SPANS_CORRIDOR)
+
+
+def test_less_than_the_whole_corridor_does_not_span_it() -> None:
+    case = Case(WIDE, TARGET, np.array([[0.2, 0.211], [0.2, 0.4]]))
+    assert not spans(case)
+    assert Choice.SPANS_CORRIDOR not in first(case).choices
+
+
+def test_where_there_is_no_room_at_the_wall_the_other_direction_is_taken() -> None:
+    """The corridor ends 2 cm from the wall: nothing fits between the two."""
+    case = Case(Shelf(0.6, 0.6), (0.45, 0.14), np.array([[0.2, 0.12]]))
+    push = first(case)
+    assert (push.sweep.direction, push.clears) == (1, True)
+    assert push.choices[0] == Choice.OTHER_DIRECTION
+    last = case.pushes[-1]
+    assert (last.sweep.direction, last.clears) == (-1, False)
+
+
+def test_where_the_arm_does_not_fit_nothing_is_proposed() -> None:
+    for width, fits in ((0.12, False), (0.25, True)):
+        corridor = Corridor(np.zeros(2), 0.0, width / 2, 0.05, 0.0, 0.4)
+        view = ArmView(Shelf(0.6, width), ARM.closed, 0.002)
+        pushes = SweepGeometry(corridor, np.array([[0.2, width / 2]]), RADIUS, RADIUS, view).pushes()
+        assert bool(list(pushes)) is fits

@@ -1,0 +1,189 @@
+"""The reach passes free of obstacles and walls, and what is drawn out is drawn all the way out."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from phframe.core import Action, Condition, Contacts, Corridor, Cylinder, FloatArray, Infeasible, Outline, Phase, Scene, State
+from phframe.pushing.corridor import find_corridor
+from phframe.pushing.options import PushingOptions
+from phframe.pushing.reach import FITS, NEIGHBOUR_CLEARANCE, YAW_STEPS, grasp_action
+from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, gap_to_walls, gaps_to_points, scene_of
+from tests.pushing.sweep_cases import millimetres
+
+ALONG = np.linspace(0.0, 1.0, 25)
+
+
+@st.composite
+def scenes(draw: st.DrawFn) -> Scene:
+    """A target with up to five obstacles, most of them near it."""
+    target = draw(millimetres(0.1, 0.56)), draw(millimetres(0.03, 0.57))
+    near = st.tuples(millimetres(-0.12, 0.12), millimetres(-0.12, 0.12))
+    kept: list[tuple[float, float]] = []
+    for dx, dy in draw(st.lists(near, max_size=5)):
+        x, y = round(target[0] + dx, 3), round(target[1] + dy, 3)
+        apart = all(math.dist((x, y), other) > 0.0601 for other in (target, *kept))
+        if apart and 0.0 <= x <= 0.57 and 0.03 <= y <= 0.57:
+            kept.append((x, y))
+    return scene_of(target, *kept)
+
+
+def corridor_of(scene: Scene) -> Corridor:
+    corridor = find_corridor(np.array(scene.objects[scene.target_index].position), scene.shelf, HALF_WIDTH)
+    assert isinstance(corridor, Corridor)
+    return corridor
+
+
+def grasp(scene: Scene, state: State | None = None) -> Action | Infeasible:
+    return grasp_action(scene, state or scene.initial_state(), corridor_of(scene), ARM, PushingOptions())
+
+
+def on_the_way_in(action: Action) -> FloatArray:
+    poses = action.path.poses
+    return np.asarray(poses[0] + ALONG[:, None] * (poses[1] - poses[0]))
+
+
+@settings(max_examples=80, deadline=None)
+@given(scenes())
+def test_the_open_arm_keeps_its_clearance_from_everything_on_the_way_in(scene: Scene) -> None:
+    found = grasp(scene)
+    if isinstance(found, Infeasible):
+        return
+    outlines = ARM.outlines(found.path.rules[Phase.REACH].opening)
+    centers = scene.initial_state().positions
+    for pose in on_the_way_in(found):
+        gaps = gaps_to_points(outlines, pose, centers) - scene.radii
+        assert gaps[scene.target_index] >= 0.003 - 1e-9, "the fingers pass beside the target"
+        assert np.delete(gaps, scene.target_index).min(initial=1.0) >= NEIGHBOUR_CLEARANCE - 1e-9
+        assert gap_to_walls(outlines, pose) >= NEIGHBOUR_CLEARANCE - 1e-6
+
+
+@settings(max_examples=80, deadline=None)
+@given(scenes())
+def test_the_grasp_is_where_the_target_is_and_the_withdrawal_goes_straight_out(scene: Scene) -> None:
+    found = grasp(scene)
+    if isinstance(found, Infeasible):
+        return
+    start, tip, closing, end = found.path.poses
+    assert found.path.phases == (Phase.REACH, Phase.GRASP, Phase.WITHDRAW)
+    assert (found.grasps, found.moves) == (True, ("target",))
+    assert len({pose[2] for pose in found.path.poses}) == 1
+    assert abs(tip[2] - corridor_of(scene).angle) <= math.radians(15.0) + 1e-12
+    ahead, target = np.array([math.cos(tip[2]), math.sin(tip[2])]), scene.initial_state().positions[0]
+    past = tip[:2] - target
+    assert past @ ahead == pytest.approx(float(np.linalg.norm(past)))
+    assert any(past @ ahead == pytest.approx(fit) for fit, _ in FITS)
+    np.testing.assert_array_equal(tip, closing)
+    for other in (start, end):
+        assert np.cross([*ahead, 0.0], [*(tip - other)[:2], 0.0])[2] == pytest.approx(0.0, abs=1e-12)
+    outlines = ARM.outlines(found.path.rules[Phase.REACH].opening)
+    assert max(_corners(outlines, start)) == pytest.approx(-0.05)
+    assert max(_corners(ARM.closed, end)) <= -0.05 + 1e-9
+    left = target + (end - tip)[:2]
+    assert left[0] + RADIUS <= -0.10 + 1e-9, "the whole target is 0.10 m outside"
+
+
+def _corners(outlines: tuple, pose: FloatArray) -> list[float]:
+    ahead = np.array([math.cos(pose[2]), -math.sin(pose[2])])
+    return [float(x) for outline in outlines for x in pose[0] + outline.vertices @ ahead]
+
+
+@settings(max_examples=80, deadline=None)
+@given(scenes())
+def test_it_is_refused_only_where_at_every_yaw_something_is_in_the_way(scene: Scene) -> None:
+    found = grasp(scene)
+    if isinstance(found, Action):
+        return
+    ways = [_touched(scene, yaw, past, clearance) for past, clearance in FITS for yaw in YAW_STEPS]
+    touched = [names for names in ways if names is not None]
+    assert all(touched) or found.reason.startswith("grasp blocked by a wall")
+    if found.blockers:
+        assert set(found.blockers) in touched
+        assert len(found.blockers) == min(len(each) for each in touched)
+        assert found.reason == f"grasp blocked by {', '.join(found.blockers)}"
+
+
+def _touched(scene: Scene, deviation: float, past: float, clearance: float) -> set[str] | None:
+    """Ids of what a straight reach would touch; None where a wall is in the way."""
+    yaw, outlines = corridor_of(scene).angle + deviation, ARM.outlines(2 * (RADIUS + clearance))
+    ahead, centers = np.array([math.cos(yaw), math.sin(yaw)]), scene.initial_state().positions
+    tip = centers[0] + past * ahead
+    length = (tip[0] + 0.05) / ahead[0]
+    ways = [np.array([*(tip - share * length * ahead), yaw]) for share in np.linspace(0.0, 1.0, 12)]
+    if min(gap_to_walls(outlines, pose) for pose in ways) < NEIGHBOUR_CLEARANCE - 1e-6:
+        return None
+    gaps = gaps_to_points([_drawn_back(outline, length) for outline in outlines], ways[0], centers) - scene.radii
+    return {scene.ids[row] for row in np.flatnonzero(gaps < NEIGHBOUR_CLEARANCE) if row}
+
+
+def _drawn_back(outline: Outline, length: float) -> Outline:
+    """What a part of the planar arm, a rectangle, passes over on a straight way in."""
+    (x0, y0), (x1, y1) = outline.vertices.min(axis=0), outline.vertices.max(axis=0)
+    return Outline(outline.part, np.array([[x0 - length, y0], [x1, y0], [x1, y1], [x0 - length, y1]]))
+
+
+def test_a_neighbour_on_one_side_turns_the_gripper_away() -> None:
+    found = grasp(scene_of((0.4, 0.3), (0.42, 0.37)))
+    assert isinstance(found, Action)
+    assert found.path.poses[0, 2] != 0.0
+
+
+def test_what_stands_on_both_sides_is_named() -> None:
+    found = grasp(scene_of((0.4, 0.3), (0.1, 0.55), (0.4, 0.3605), (0.4, 0.2395)))
+    assert found == Infeasible("grasp blocked by o1, o2", ("o1", "o2")) or (
+        isinstance(found, Infeasible) and set(found.blockers) <= {"o1", "o2"} and found.blockers
+    )
+
+
+def test_what_has_left_the_board_is_not_in_the_way() -> None:
+    scene = scene_of((0.4, 0.3), (0.4, 0.3605), (0.4, 0.2395))
+    state = scene.initial_state()
+    gone = replace(state, conditions=(Condition.UPRIGHT, Condition.SPILLED, Condition.SPILLED))
+    assert isinstance(grasp(scene), Infeasible)
+    assert isinstance(grasp(scene, gone), Action)
+    toppled = replace(state, conditions=(Condition.UPRIGHT, Condition.TOPPLED, Condition.TOPPLED))
+    assert isinstance(grasp(scene, toppled), Infeasible)
+
+
+def test_a_target_too_wide_for_the_gripper_is_refused_with_both_figures() -> None:
+    scene = scene_of((0.4, 0.3))
+    wide = replace(scene, objects=(replace(scene.objects[0], shape=Cylinder(0.04)),))
+    refused = grasp(wide)
+    assert isinstance(refused, Infeasible)
+    assert refused.blockers == ()
+    assert "0.08 m wide" in refused.reason
+    assert "opens 0.08 m" in refused.reason
+
+
+def test_the_widest_opening_that_the_gripper_has_is_used_for_a_wide_target() -> None:
+    scene = scene_of((0.4, 0.3))
+    wide = replace(scene, objects=(replace(scene.objects[0], shape=Cylinder(0.036)),))
+    found = grasp(wide)
+    assert isinstance(found, Action)
+    assert found.path.rules[Phase.REACH].opening == pytest.approx(2 * (0.036 + 0.003))
+
+
+def test_a_wall_in_the_way_is_named() -> None:
+    """Behind the mouth's corner: the link does not fit between target and wall at any yaw."""
+    corridor = Corridor(np.array([0.0, 0.0]), 0.0, 0.035, 0.01, 0.0, 0.4)
+    scene = scene_of((0.4, 0.035))
+    refused = grasp_action(scene, scene.initial_state(), corridor, ARM, PushingOptions())
+    assert isinstance(refused, Infeasible)
+    assert "wall" in refused.reason
+    assert refused.blockers == ()
+
+
+def test_only_the_target_may_be_touched_at_the_set_speed_and_the_fingers_close() -> None:
+    scene = scene_of((0.4, 0.3))
+    found = grasp_action(scene, scene.initial_state(), corridor_of(scene), ARM, PushingOptions(reach_speed=0.125))
+    assert isinstance(found, Action)
+    for phase in found.path.phases:
+        assert (found.path.rules[phase].speed, found.path.rules[phase].contacts) == (0.125, Contacts.TARGET)
+    openings = [found.path.rules[phase].opening for phase in found.path.phases]
+    assert openings == pytest.approx([2 * (RADIUS + 0.008), 0.0, 0.0])

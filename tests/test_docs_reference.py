@@ -1,0 +1,194 @@
+"""What the documentation lists is complete and right: names, options, keys, codes, settlements, variables, kinds."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+from collections.abc import Mapping
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import phframe
+from phframe import testing
+from phframe.cli import exit_codes
+from phframe.cli.listing_data import listing
+from phframe.cli.option_list import describe
+from phframe.core import Condition, Episode, Phase, Status
+from phframe.pushing.choice import Choice
+from phframe.registry import Kind, builtin, create
+from phframe.registry.load import INTERFACES
+from phframe.runtime.summary import summarize
+from tests.markdown import DOCS, PAGES, README, ROOT, blocks, column, each_page, extras, named, quoted, table, text_of
+
+PLANNERS = [each.name for each in builtin.EXTENSIONS if each.kind is Kind.PLANNER]
+JSON_TYPES: Mapping[str, Any] = {
+    "integer": int,
+    "number": float,
+    "text": str,
+    "text or null": str | None,
+    "boolean": bool,
+    "list of text": list,
+    "object": dict,
+}
+
+
+@cache
+def classes() -> Mapping[str, frozenset[str]]:
+    """Every class of phframe, with the names defined in it."""
+    found: dict[str, frozenset[str]] = {}
+    for path in (ROOT / "phframe").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                functions = {each.name for each in node.body if isinstance(each, ast.FunctionDef)}
+                fields = {str(getattr(each.target, "id", "")) for each in node.body if isinstance(each, ast.AnnAssign)}
+                found[node.name] = found.get(node.name, frozenset()) | functions | fields
+    return found
+
+
+@each_page(PAGES)
+def test_names_in_the_text_exist(page: Path) -> None:
+    for text in quoted(page):
+        if re.fullmatch(r"[A-Z][a-z]+[A-Za-z]*(\.\w+)?", text):
+            name, _, member = text.partition(".")
+            assert name in classes(), f"{named(page)}: {text}"
+            assert not member or member in classes()[name], f"{named(page)}: {text}"
+        elif re.fullmatch(r"phframe(\.\w+)+", text):
+            resolve(text)
+
+
+def resolve(dotted: str) -> object:
+    """The module, or the thing in a module, that a dotted name means."""
+    try:
+        return import_module(dotted)
+    except ModuleNotFoundError:
+        module, _, name = dotted.rpartition(".")
+        return getattr(resolve(module), name)
+
+
+def test_words_of_the_language_are_explained() -> None:
+    explained = column("docs/concepts.md", "The words")
+    assert all(word in vars(phframe.core) for word in explained if word[0].isupper())
+    text = text_of(DOCS / "concepts.md")
+    assert all(f"`{word}`" in text for word in [*Phase, *Condition])
+    assert column("docs/concepts.md", "How it can end") == list(Status)
+
+
+def test_parts_of_the_package_are_in_the_readme() -> None:
+    parts = {path.parent.name for path in (ROOT / "phframe").glob("*/__init__.py")}
+    assert set(column("README.md", "How it is made")) == parts
+    for row in table("README.md", "How it is made"):
+        kind = {"planners": Kind.PLANNER, "backends": Kind.BACKEND, "arms": Kind.ARM, "topology": Kind.TOPOLOGY}.get(
+            row[0]
+        )
+        for extension in builtin.EXTENSIONS:
+            assert extension.kind is not kind or f"`{extension.name}`" in f"`{row[1]}`", f"{row[0]}: {extension.name}"
+
+
+def test_suites_are_in_the_readme_and_explained() -> None:
+    suites = [each.name for each in builtin.EXTENSIONS if each.kind is Kind.SCENES]
+    assert column("docs/scenes.md", "Suites") == suites
+    assert all(f"`{suite}`" in text_of(README) for suite in suites)
+    counts = {suite: str(len(create(Kind.SCENES, suite).names())) for suite in ("vieira", "papallas")}
+    assert all(f"`{suite}` ({count} scenes" in text_of(README) for suite, count in counts.items())
+
+
+def test_extras_are_in_the_readme() -> None:
+    assert set(re.findall(r"\w+", " ".join(column("README.md", "Run it")))) == extras()
+
+
+def test_every_settlement_is_explained() -> None:
+    assert column("docs/planners.md", "Settlements of what the paper leaves open") == list(Choice)
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_every_planner_and_its_options_are_explained(planner: str) -> None:
+    assert f"\n## `{planner}`\n" in text_of(DOCS / "planners.md")
+    check_options(table("docs/planners.md", "Options"), Kind.PLANNER, planner)
+
+
+def test_options_of_the_generator_are_explained() -> None:
+    check_options(table("docs/scenes.md", "The generator"), Kind.SCENES, "random")
+
+
+def check_options(rows: list[list[str]], kind: Kind, name: str) -> None:
+    """Key, default and unit of every option, in order."""
+    options = describe(kind, name).options
+    assert [row[:2] for row in rows] == [[option.key, str(option.default)] for option in options]
+    for (key, _, unit, _), option in zip(rows, options, strict=True):
+        assert f"({unit})" in option.description if unit else "(" not in option.description, key
+
+
+def test_every_kind_of_extension_is_explained() -> None:
+    rows = table("docs/plugins.md", "Kinds of extensions")
+    assert [row[0] for row in rows] == list(Kind)
+    for kind, interface, _, _, check in rows:
+        assert Kind(kind) not in INTERFACES or INTERFACES[Kind(kind)].__name__ == interface
+        assert (check in testing.__all__) is bool(check)
+
+
+def test_every_conformance_check_is_explained() -> None:
+    checks = {name for name in testing.__all__ if name.startswith("check_")}
+    assert set(column("docs/plugins.md", "The conformance kit")) == checks
+    assert all(f"`{name}`" in text_of(DOCS / "plugins.md") for name in testing.__all__ if name.endswith("_CHECKS"))
+
+
+def test_every_environment_variable_is_explained() -> None:
+    code = "".join(path.read_text("utf-8") for path in (ROOT / "phframe").rglob("*.py"))
+    used = set(re.findall(r"\"(PHFRAME_[A-Z_]+)\"", code))
+    assert set(column("docs/plugins.md", "Environment variables")) == used
+    assert set(re.findall(r"PHFRAME_[A-Z_]+", "".join(map(text_of, PAGES)))) == used
+
+
+def test_every_exit_code_is_explained() -> None:
+    rows = [[str(code.value), meaning] for code, meaning in exit_codes.MEANING.items()]
+    assert table("docs/json.md", "Exit codes") == rows
+    assert len(rows) == len(exit_codes.ExitCode)
+
+
+@pytest.fixture(scope="module")
+def episode() -> Episode:
+    return phframe.solve("vieira/basic")
+
+
+RESULT = "The result: `phframe solve --json`"
+
+
+def test_every_key_of_the_result_is_explained(episode: Episode) -> None:
+    summary = summarize(episode)
+    rows = table("docs/json.md", RESULT)
+    assert [row[0] for row in rows] == list(summary)
+    for key, kind, *_ in rows:
+        assert isinstance(summary[key], JSON_TYPES[kind]), key
+        assert (kind == "integer") is (type(summary[key]) is int), key
+
+
+def test_the_example_of_the_result_is_one(episode: Episode) -> None:
+    (block,) = blocks("json")
+    example, summary = json.loads(block.text), summarize(episode)
+    assert list(example) == list(summary)
+    for key in set(summary) - {"planning_time", "recording", "versions"}:
+        assert example[key] == (pytest.approx(summary[key]) if key == "execution_time" else summary[key]), key
+    assert list(example["versions"]) == list(summary["versions"])
+
+
+def test_every_key_of_the_listings_is_explained() -> None:
+    suites = listing(Kind.SCENES, "scenes").as_json()
+    assert list(suites) == ["format", "scenes", "broken"]
+    assert column("docs/json.md", "The listings: `--json`") == list(suites["scenes"][0])
+    described = describe(Kind.PLANNER, "phia").as_json()
+    names = [*described, *described["options"][0]]
+    assert all(f"`{name}`" in text_of(DOCS / "json.md") for name in names)
+
+
+def test_the_measured_table_is_about_the_suites_and_planners_there_are() -> None:
+    sizes = {suite: len(create(Kind.SCENES, suite).names()) for suite in ("vieira", "papallas")}
+    sizes["all"] = sum(sizes.values())
+    rows = table("README.md", "Measured")
+    assert [tuple(row[:3]) for row in rows] == [(p, s, str(n)) for p in PLANNERS for s, n in sizes.items()]
+    for _, _, scenes, cleared, reached, retrieved, clean, *_ in rows:
+        assert int(scenes) >= int(cleared) >= int(reached) >= int(retrieved) >= int(clean)
