@@ -82,6 +82,8 @@ class ArmDescription(_Part):
         height: Of the gripper plane above the board (m).
         force_limit: Net contact force above which the arm stalls (N).
         behind: The arm behind what the gripper's link carries.
+        overlapping: Pairs of links, besides those joined to one another, whose covers may overlap: whoever looks for
+            collisions of the arm with itself passes them over.
     """
 
     phframe: Literal[1] = 1
@@ -95,6 +97,7 @@ class ArmDescription(_Part):
     height: Annotated[float, Field(gt=0.0, le=2.0)]
     force_limit: Annotated[float, Field(gt=0.0)] = 60.0
     behind: tuple[Section, ...] = ()
+    overlapping: tuple[tuple[str, str], ...] = ()
 
 
 def read_description(path: Path) -> tuple[ArmDescription, str]:

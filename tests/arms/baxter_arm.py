@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from phframe.arms.baxter import Baxter, BaxterOptions
-from phframe.arms.baxter.model import Side
+from phframe.arms.baxter.model import SIDES, Side
 from phframe.arms.solids import rotation
 from phframe.core import FloatArray
 
-SIDES: tuple[Side, Side] = ("left", "right")
+__all__ = ["GOLDEN", "SIDES", "as_matrix", "baxter", "fingertip"]
+
 GOLDEN: dict[str, Any] = json.loads((Path(__file__).parent / "data" / "baxter.json").read_text("utf-8"))
 
 

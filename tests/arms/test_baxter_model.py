@@ -156,6 +156,31 @@ def test_mujoco_loads_it_without_a_warning(side: Side, capfd: pytest.CaptureFixt
     assert (captured.out, captured.err) == ("", "")
 
 
+@pytest.mark.needs_mujoco
+@BOTH
+def test_the_covers_overlap_nowhere_but_where_it_is_said(side: Side) -> None:
+    mujoco = pytest.importorskip("mujoco")
+    arm = baxter(side)
+    keep = '<mujoco><compiler fusestatic="false"/></mujoco></robot>'
+    model = mujoco.MjModel.from_xml_string(arm.urdf().replace("</robot>", keep))
+    data = mujoco.MjData(model)
+    names = [model.body(number).name for number in range(model.nbody)]
+    said = {frozenset(pair) for pair in arm.description.overlapping}
+    assert all(link in read_robot(arm.urdf()).covers for pair in said for link in pair)
+    parents = {frozenset((c.parent, c.child)) for c in read_robot(arm.urdf()).connections.values()}
+    for opening in (0.0, figures.FINGER_TRAVEL):
+        values = {joint.name: value for joint, value in zip(arm.joints, arm.home, strict=True)}
+        for name, value in {**values, **dict.fromkeys((j.name for j in arm.fingers.joints), opening)}.items():
+            data.joint(name).qpos = value
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_collision(model, data)
+        bodies = [model.geom_bodyid[[contact.geom1, contact.geom2]] for contact in data.contact if contact.dist < 0.0]
+        found = {frozenset(names[body] for body in pair) for pair in bodies}
+        assert found - said - parents == set()
+        assert found & said, "what is said to overlap does"
+
+
 @pytest.mark.needs_pybullet
 @BOTH
 def test_pybullet_loads_it_without_a_warning(side: Side, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from phframe.arms.articulated import ArticulatedArm
 from phframe.arms.baxter import figures
-from phframe.arms.baxter.model import Side, arm_joints, baxter_urdf, fingers, mirrored
+from phframe.arms.baxter.model import SIDES, Side, arm_joints, baxter_urdf, fingers, mirrored
 from phframe.arms.description import ArmDescription, Section, Stand
 from phframe.core import Options
 
@@ -42,4 +42,5 @@ def _description(side: Side) -> ArmDescription:
         shelf=Stand(at=(x, y if left else -y, z)),
         height=figures.GRIPPER_HEIGHT,
         behind=(Section(part="forearm", widths=figures.WIDTHS, bottom=-half, top=half),),
+        overlapping=tuple((a.format(side=arm), b.format(side=arm)) for arm in SIDES for a, b in figures.OVERLAPPING),
     )

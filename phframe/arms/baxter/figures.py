@@ -209,7 +209,7 @@ FINGER_EFFORT = 20.0
 FINGER_COVERS = (
     _box("bar", (0.10755, 0.0135, 0.010), (0.058925, 0.01725, 0.0)),
     _box("pad", (0.0335, 0.0065, 0.042), (0.09595, 0.01275, 0.0)),
-    _box("knuckle", (0.017, 0.050, 0.009), (0.0083, -0.003, 0.005)),
+    _box("knuckle", (0.017, 0.048, 0.009), (0.0083, -0.002, 0.005)),
 )
 MIN_OPENING = 0.035
 """Between the pads of the closed fingers."""
@@ -238,6 +238,14 @@ HEAD_COVERS = (Solid("sphere", (0.22,), (-0.02, -0.04, 0.064)), Solid("sphere", 
 SCREEN_AT: Vector = (0.1227, 0.0, 0.0)
 SCREEN_RPY: Vector = (1.75057, 0.0, RIGHT_ANGLE)
 SCREEN = Inertia(0.440171, (0.0, 0.0, 0.0), (0.004006, 0.00023, 0.000002, 0.0028, 0.000029, 0.001509))
+
+OVERLAPPING = (
+    ("base", "{side}_upper_shoulder"),
+    ("base", "{side}_lower_shoulder"),
+    ("{side}_upper_shoulder", "{side}_upper_elbow"),
+    ("{side}_upper_elbow", "{side}_upper_forearm"),
+)
+"""Links that the joints' limits keep apart on the real robot, though their covers here, which are simpler, overlap."""
 
 IDLE = (1.0, -0.55, 0.0, 0.75, 0.0, 1.26, 0.0)
 """Joints of the left arm parked outwards while the other one works."""

@@ -15,6 +15,7 @@ from phframe.arms.solids import ORIGIN, Inertia, Solid, Vector, of_solids, rotat
 from phframe.core import Fingers, Joint
 
 Side = Literal["left", "right"]
+SIDES: tuple[Side, Side] = ("left", "right")
 TIP = "fingertip"
 """The link at the fingertip of the arm that moves."""
 MIRRORED = ("s0", "e0", "w0", "w2")
