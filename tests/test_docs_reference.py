@@ -34,6 +34,7 @@ JSON_TYPES: Mapping[str, Any] = {
     "boolean": bool,
     "list of text": list,
     "object": dict,
+    "object or null": dict | None,
 }
 
 
@@ -172,7 +173,8 @@ def test_the_example_of_the_result_is_one(episode: Episode) -> None:
     example, summary = json.loads(block.text), summarize(episode)
     assert list(example) == list(summary)
     for key in set(summary) - {"planning_time", "recording", "versions"}:
-        assert example[key] == (pytest.approx(summary[key]) if key == "execution_time" else summary[key]), key
+        measured = key in ("execution_time", "tracking_error", "prediction_error")
+        assert example[key] == (pytest.approx(summary[key], rel=0.02) if measured else summary[key]), key
     assert list(example["versions"]) == list(summary["versions"])
 
 

@@ -77,5 +77,5 @@ def _option_keys(context: typer.Context) -> Offer:
         (f"{'' if part == 'planner' else f'{part}.'}{each.key}=", each.description)
         for part, spec in asked
         if spec
-        for each in describe(Kind(part), spec).options
+        for each in describe(Kind(part.removeprefix("plan_")), spec).options
     ]

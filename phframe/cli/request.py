@@ -16,6 +16,8 @@ class Request:
         planner: A name, or a class in a file.
         backend: As ``planner``.
         arm: As ``planner``.
+        plan_backend: As ``planner``; None: what suits the backend.
+        plan_arm: As ``planner``; None: the arm.
         topology: As ``planner``.
         seed: Of everything random.
         options: As text, by part and key.
@@ -33,6 +35,8 @@ class Request:
     planner: str
     backend: str
     arm: str
+    plan_backend: str | None
+    plan_arm: str | None
     topology: str
     seed: int
     options: Mapping[str, Mapping[str, str]]

@@ -40,6 +40,8 @@ def _rows(summary: Mapping[str, Any], directory: Path | None) -> Iterator[tuple[
     yield "scene", Text(summary["scene"])
     parts = [summary[part] for part in ("planner", "backend", "arm", "topology")]
     yield "with", Text(f"{', '.join(parts)}; seed {summary['seed']}")
+    if planned := _planned_with(summary):
+        yield "planned with", Text(", ".join(planned))
     yield "status", Text(status, STYLES.get(status, ""))
     if summary["reason"]:
         yield "reason", Text(summary["reason"])
@@ -47,6 +49,7 @@ def _rows(summary: Mapping[str, Any], directory: Path | None) -> Iterator[tuple[
     yield "planning", f"{_seconds(summary['planning_time'])}, {summary['simulated_actions']} actions simulated"
     yield "execution", f"{_seconds(summary['execution_time'])} in the simulated world"
     yield "replans", f"{summary['replans']}"
+    yield from _fidelity(summary)
     yield "target moved", f"{1000 * summary['target_moved']:.1f} mm before the grasp"
     yield "toppled", _ids(summary["toppled"])
     yield "spilled", _ids(summary["spilled"])
@@ -56,6 +59,21 @@ def _rows(summary: Mapping[str, Any], directory: Path | None) -> Iterator[tuple[
         yield "files", Text(str(directory))
     if summary["recording"]:
         yield "look at it", Text(f"{_viewer()} {summary['recording']}")
+
+
+def _planned_with(summary: Mapping[str, Any]) -> list[str]:
+    """The backend and the arm it was planned with, where they are not those that carried the plan out."""
+    return [summary[f"plan_{part}"] for part in ("backend", "arm") if summary[f"plan_{part}"] != summary[part]]
+
+
+def _fidelity(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """How well the plan and the joints' motion held, where the plan was carried out in another world."""
+    if not _planned_with(summary):
+        return
+    yield "motion planning", _seconds(summary["motion_planning_time"])
+    yield "tracking error", f"{1000 * summary['tracking_error']:.1f} mm at worst"
+    if error := summary["prediction_error"]:
+        yield "prediction error", f"{1000 * error['median']:.1f} mm median, {1000 * error['worst']:.1f} mm at worst"
 
 
 def _seconds(seconds: float) -> str:

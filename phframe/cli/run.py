@@ -64,6 +64,8 @@ def _solve(request: Request, files: RunFiles, partial: PartialEpisode) -> Episod
             planner=request.planner,
             backend=request.backend,
             arm=request.arm,
+            plan_backend=request.plan_backend,
+            plan_arm=request.plan_arm,
             topology=request.topology,
             seed=request.seed,
             options=request.options,

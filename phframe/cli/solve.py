@@ -41,7 +41,7 @@ BackendSpec = Annotated[
     typer.Option(
         "--backend",
         metavar="NAME",
-        help="The physics to plan and act in: a name ('phframe backends') or ./mine.py:Mine.",
+        help="The physics to act in: a name ('phframe backends') or ./mine.py:Mine.",
         autocompletion=completion.backends,
     ),
 ]
@@ -51,6 +51,26 @@ ArmSpec = Annotated[
         "--arm",
         metavar="NAME",
         help="The robot arm: a name ('phframe arms') or ./mine.py:Mine.",
+        autocompletion=completion.arms,
+    ),
+]
+PlanBackendSpec = Annotated[
+    str | None,
+    typer.Option(
+        "--plan-backend",
+        metavar="NAME",
+        help="The physics to plan in.",
+        show_default="pymunk where the backend drives joints, else the backend",
+        autocompletion=completion.backends,
+    ),
+]
+PlanArmSpec = Annotated[
+    str | None,
+    typer.Option(
+        "--plan-arm",
+        metavar="NAME",
+        help="The robot arm to plan with.",
+        show_default="the arm",
         autocompletion=completion.arms,
     ),
 ]
@@ -73,7 +93,7 @@ OptionTexts = Annotated[
         "--option",
         metavar="KEY=VALUE",
         help="An option of the planner, or with a prefix of another part: margin=0.02, backend.step=0.002, "
-        "arm.link_width=0.1, topology.KEY, scenes.count=12. Repeatable. 'phframe planners NAME' and so on list them.",
+        "arm.link_width=0.1, plan_backend.KEY, topology.KEY, scenes.count=12. Repeatable. 'phframe planners NAME' and so on list them.",
         autocompletion=completion.options,
     ),
 ]
@@ -130,6 +150,8 @@ def solve(
     planner: PlannerSpec = "phia",
     backend: BackendSpec = "pymunk",
     arm: ArmSpec = "planar",
+    plan_backend: PlanBackendSpec = None,
+    plan_arm: PlanArmSpec = None,
     topology: TopologySpec = "ripser",
     seed: Seed = 0,
     option: OptionTexts = None,
@@ -155,6 +177,8 @@ def solve(
         planner=planner,
         backend=backend,
         arm=arm,
+        plan_backend=plan_backend,
+        plan_arm=plan_arm,
         topology=topology,
         seed=seed,
         options=parse_options(option or ()),

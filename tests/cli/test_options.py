@@ -17,6 +17,8 @@ def test_a_key_without_a_prefix_is_the_planners() -> None:
         "planner": {"margin": "0.02"},
         "backend": {},
         "arm": {"link_width": "0.1"},
+        "plan_backend": {},
+        "plan_arm": {},
         "topology": {},
         "scenes": {"count": "12"},
     }
