@@ -9,7 +9,7 @@ import numpy as np
 
 from phframe.backends.mujoco_model import Model
 from phframe.backends.mujoco_world import World, finger_values
-from phframe.core import FloatArray, InputError, JointTrajectory, Trajectory, compose, yaw_of
+from phframe.core import FloatArray, InputError, JointTrajectory, Phase, Trajectory, compose, yaw_of
 
 START_POSITION, START_ANGLE = 2e-3, 1e-2
 """How far from the arm (m, rad) a trajectory may begin."""
@@ -23,10 +23,12 @@ class Commands:
 
     Attributes:
         controls: Joint values, leading where joints move, then the two fingers ``(k, dof + 2)``.
+        phases: What the arm is doing during each control step, ``k``.
         tips: Where the fingertip is meant to be as each control step ends, x and y ``(k, 2)`` (m).
     """
 
     controls: FloatArray
+    phases: tuple[Phase, ...]
     tips: FloatArray
 
 
@@ -36,10 +38,12 @@ def commands(model: Model, trajectory: JointTrajectory, period: float) -> Comman
     positions, velocities = trajectory.sample(times)
     gripper = trajectory.gripper
     openings = np.interp(times, gripper.times, gripper.openings)
-    fingers = np.array([finger_values(model, opening) for opening in openings]).reshape(-1, 2)
+    fingers = finger_values(model, openings)
     seen = times - model.mj.opt.timestep  # a step leaves poses one step behind the joints
     tips = [np.interp(seen, gripper.times, gripper.poses[:, axis]) for axis in (0, 1)]
-    return Commands(np.hstack([positions + model.lead * velocities, fingers]), np.column_stack(tips))
+    legs = np.searchsorted(gripper.times, times - period / 2.0, side="right") - 1
+    phases = tuple(gripper.phases[min(leg, len(gripper.phases) - 1)] for leg in legs.tolist())
+    return Commands(np.hstack([positions + model.lead * velocities, fingers]), phases, np.column_stack(tips))
 
 
 def accepted(world: World, trajectory: Trajectory) -> JointTrajectory:

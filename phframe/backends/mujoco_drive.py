@@ -11,6 +11,7 @@ import mujoco
 from phframe.backends.mujoco_commands import accepted, commands
 from phframe.backends.mujoco_limiter import Limiter
 from phframe.backends.mujoco_touch import Touches
+from phframe.backends.mujoco_warnings import caught_warnings
 from phframe.backends.mujoco_world import World, read_state, refuse_divergence, spill
 from phframe.core import FORCE_WINDOW, Contact, JointTrajectory, Motion, Settle, Stop, Trajectory, Watch
 
@@ -50,11 +51,12 @@ class Drive:
         window = max(1, round(FORCE_WINDOW / self._period))
         self._forces = deque([0.0] * window, maxlen=window)
         self._limiter = Limiter(world, self._trajectory.force_limit)
-        self._tick, self._next_look = 0, 0.0
+        self._tick, self._pressed, self._next_look = 0, 0, 0.0
         self._tip = [0.0, 0.0, 0.0]
         self._force = self._lag = 0.0
         self._stalled, self._settled = False, True
         self._cause: str | None = None
+        self._warnings: list[str] = []
 
     def run(self, settle: Settle | None) -> Motion:
         """Follow the trajectory, then wait for rest.
@@ -64,14 +66,15 @@ class Drive:
         """
         self._world.parked = False
         self._look(always=True)
-        self._follow()
-        followed = self._tick * self._period
-        self._limiter.release()
-        if self._ended:
-            self._yield()
-        if settle is not None:
-            self._settle(settle)
-        self._survey()
+        with caught_warnings() as self._warnings:
+            self._follow()
+            followed = self._tick * self._period
+            self._limiter.release()
+            if self._ended:
+                self._yield()
+            if settle is not None:
+                self._settle(settle)
+            self._survey()
         self._look(always=True)
         return self._motion(followed)
 
@@ -82,20 +85,20 @@ class Drive:
     def _follow(self) -> None:
         """Tell the servos where to be, step by step, until something ends it."""
         told = commands(self._world.model, self._trajectory, self._period)
-        phase = None
-        for control, (x, y) in zip(told.controls, told.tips.tolist(), strict=True):
-            now = self._trajectory.gripper.phase_at(self._tick * self._period)
+        phase, ctrl = None, self._data.ctrl
+        for control, now, (x, y) in zip(told.controls, told.phases, told.tips.tolist(), strict=True):
             if now is not phase:
                 phase = now
                 self._touches.forget_phase()
-            self._data.ctrl[:] = control
-            if self._limiter.heed(self._forces[-1]):
+            ctrl[:] = control
+            if self._pressed and self._limiter.heed(self._forces[-1], touched=any(self._forces)):
                 self._give_way()
             self._advance()
             self._note_lag(x, y)
-            self._heed_stop()
             if self._ended:
+                self._stalled = self._stalled and self._cause is None
                 return
+        self._data.ctrl[: self._world.model.dof] = self._trajectory.positions[-1]
 
     def _give_way(self) -> None:
         """Ask nothing of the arm but to come to a stop where it is."""
@@ -106,20 +109,27 @@ class Drive:
         mujoco.mj_step(self._model, self._data, self._substeps)
         self._tick += 1
         self._tip = self._data.xpos[self._world.model.tip].tolist()
-        touching, x, y, z = self._data.sensordata.tolist()
-        force = math.sqrt(x * x + y * y + z * z)
-        if touching or self._world.held is not None:
-            self._touches.look(self._tick * self._period, touching > 0.0)
-        self._forces.append(force)
-        mean = sum(self._forces) / len(self._forces)
-        self._force = max(self._force, mean)
+        touching, *force = self._data.sensordata.tolist()
+        if touching:
+            self._pressed = len(self._forces)
+        if self._pressed or self._world.held is not None:
+            self._feel(touching, math.hypot(*force))
         if self._tick % SURVEY == 0:
             self._survey()
         if self._watch is not None:
             self._look()
 
+    def _feel(self, touching: float, force: float) -> None:
+        """Note so many contacts of the arm and the force (N) on it, and what they are a reason to stop for."""
+        self._pressed -= self._pressed > 0 and not touching
+        self._touches.look(self._tick * self._period, touching)
+        self._forces.append(force)
+        self._force = max(self._force, sum(self._forces) / len(self._forces))
+        if self._stop is not None and self._cause is None:
+            self._cause = self._reason(self._stop)
+
     def _survey(self) -> None:
-        refuse_divergence(self._world)
+        refuse_divergence(self._world, self._warnings)
         spill(self._world)
 
     def _note_lag(self, x: float, y: float) -> None:
@@ -128,16 +138,14 @@ class Drive:
         self._lag = max(self._lag, lag)
         self._stalled = self._stalled or lag > self._stall_lag
 
-    def _heed_stop(self) -> None:
-        stop = self._stop
-        if stop is None or self._cause is not None:
-            return
-        for _, _, name, wall in self._touches.found:
+    def _reason(self, stop: Stop) -> str | None:
+        """Why to end early now, if there is a reason."""
+        for _, _, name, wall in self._touches.news():
             if (wall and stop.wall) or name in stop.bodies:
-                self._cause = f"contact with {'the ' if wall else ''}{name}"
-                return
+                return f"contact with {'the ' if wall else ''}{name}"
         if stop.force is not None and self._force > stop.force:
-            self._cause, self._stalled = f"a force of {self._force:.0f} N", False
+            return f"a force of {self._force:.0f} N"
+        return None
 
     def _yield(self) -> None:
         """Let what presses on the arm push it back, and stand where it then is."""

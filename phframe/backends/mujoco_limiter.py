@@ -15,7 +15,7 @@ LEAST = 0.05
 """Share of its effort that a joint keeps in any case, to hold itself."""
 BRAKE = 1.5
 """Share of the limit above which the arm brakes."""
-RECOVERY = 1.15
+RECOVERY = 1.3
 """Factor by which joints get back their effort in every control step in which the force is below the limit."""
 
 
@@ -36,39 +36,47 @@ class Limiter:
         self._effort = np.array([joint.effort for joint in model.arm.joints])
         self._pushing = np.minimum(self._effort, limit * LEVER + model.mj.dof_M0[model.speeds] * HASTE)
         self._least = LEAST * self._effort
-        self._caps = self._effort
-        self._free = False
+        self._ranges = model.mj.actuator_forcerange[: model.dof]
+        self._caps: FloatArray | None = self._least
         self.release()
 
-    def heed(self, force: float) -> bool:
-        """Take or give back effort, after a control step in which the force on the arm (N) was this.
+    def heed(self, force: float, *, touched: bool) -> bool:
+        """Take or give back effort, after a control step.
+
+        Args:
+            force: On the arm, as the step ended (N).
+            touched: Whether the arm has touched anything of late; what is hit may part from it for a moment.
 
         Returns:
             Whether the arm must brake with all it has: something hit hard takes the arm's momentum, too.
         """
         if force > BRAKE * self._limit:
             self.release()
-            self._caps, self._free = self._least, False
+            self._caps = self._least
             return True
         if force > self._limit:
             given = np.abs(self._world.data.actuator_force[: self._world.model.dof])
-            self._take(np.minimum(self._caps, given * (self._limit / force)))
-        elif force > 0.0:
-            self._take(self._pushing if self._free else np.minimum(self._caps * RECOVERY, self._pushing))
-        else:
+            self._take(np.minimum(self._allowed, given * (self._limit / force)))
+        elif not touched:
             self.release()
+        elif self._caps is not self._pushing:
+            more = self._allowed * RECOVERY
+            self._take(self._pushing if (more >= self._pushing).all() else np.minimum(more, self._pushing))
         return False
 
     def release(self) -> None:
         """Give all joints their whole effort."""
-        if not self._free:
+        if self._caps is not None:
             self._set(self._effort)
-            self._free = True
+            self._caps = None
+
+    @property
+    def _allowed(self) -> FloatArray:
+        return self._effort if self._caps is None else self._caps
 
     def _take(self, caps: FloatArray) -> None:
-        self._set(np.maximum(caps, self._least))
-        self._free = False
+        self._caps = caps if caps is self._pushing else np.maximum(caps, self._least)
+        self._set(self._caps)
 
     def _set(self, caps: FloatArray) -> None:
-        self._caps = caps
-        self._world.model.mj.actuator_forcerange[: self._world.model.dof] = np.column_stack([-caps, caps])
+        self._ranges[:, 0], self._ranges[:, 1] = -caps, caps

@@ -7,7 +7,6 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from phframe.backends.mujoco_arm import PREFIX, arm_spec, lead
 from phframe.backends.mujoco_shelf import WALLS, Surfaces, foot_name, object_name, shelf_spec
@@ -47,12 +46,14 @@ class Model:
         joints: Of the arm's joints in qpos ``(dof,)``.
         speeds: Of the arm's joints in qvel ``(dof,)``.
         fingers: Of the two fingers in qpos ``(2,)``.
+        closed: What the finger joints are when the gripper is closed ``(2,)``.
         lead: Seconds by which commands lead moving joints ``(dof,)``.
         tip: Body of the fingertip frame.
-        is_arm: Whether a geom is the arm's ``(ngeom,)``.
+        is_arm: Whether a geom is the arm's.
         names: What a geom is called: a part of the arm, an object, a wall, the board.
-        is_wall: Whether a geom is a wall or the ceiling ``(ngeom,)``.
-        sides: Which finger a geom is, +1 left, -1 right, 0 none ``(ngeom,)``.
+        is_wall: Whether a geom is a wall or the ceiling.
+        sides: Which finger a geom is, +1 left, -1 right, 0 none.
+        rows: Which object a geom is, None for others.
     """
 
     mj: Any
@@ -66,12 +67,14 @@ class Model:
     joints: IntArray
     speeds: IntArray
     fingers: IntArray
+    closed: FloatArray
     lead: FloatArray
     tip: int
-    is_arm: NDArray[np.bool_]
+    is_arm: tuple[bool, ...]
     names: tuple[str, ...]
-    is_wall: NDArray[np.bool_]
-    sides: IntArray
+    is_wall: tuple[bool, ...]
+    sides: tuple[int, ...]
+    rows: tuple[int | None, ...]
 
     @property
     def dof(self) -> int:
@@ -119,7 +122,8 @@ def _add_force_sensor(spec: Any, root: str) -> None:
 def _indexed(mj: Any, scene: Scene, arm: ArmModel[Any], mount: Mount) -> Model:
     objects = [mj.joint(object_name(row)) for row in range(len(scene.objects))]
     names = _geom_names(mj, scene, arm)
-    is_arm = np.array([mj.geom(row).name.startswith(PREFIX) for row in range(mj.ngeom)])
+    is_arm = tuple(mj.geom(row).name.startswith(PREFIX) for row in range(mj.ngeom))
+    rows = {int(mj.body(object_name(row)).id): row for row in range(len(scene.objects))}
     links = [mj.body(PREFIX + link).id for link in arm.fingers.links]
     return Model(
         mj=mj,
@@ -133,12 +137,14 @@ def _indexed(mj: Any, scene: Scene, arm: ArmModel[Any], mount: Mount) -> Model:
         joints=_addresses(mj, [joint.name for joint in arm.joints]),
         speeds=np.array([int(mj.joint(PREFIX + joint.name).dofadr[0]) for joint in arm.joints]),
         fingers=_addresses(mj, [joint.name for joint in arm.fingers.joints]),
+        closed=np.array([joint.lower for joint in arm.fingers.joints]),
         lead=lead(mj, range(len(arm.joints))),
         tip=mj.body(PREFIX + arm.tip_link).id,
         is_arm=is_arm,
         names=names,
-        is_wall=np.array([name in WALLS for name in names]) & ~is_arm,
-        sides=np.array([_side(int(body), links) for body in mj.geom_bodyid]),
+        is_wall=tuple(mj.geom(row).name in WALLS for row in range(mj.ngeom)),
+        sides=tuple(_side(int(body), links) for body in mj.geom_bodyid),
+        rows=tuple(rows.get(int(body)) for body in mj.geom_bodyid),
     )
 
 

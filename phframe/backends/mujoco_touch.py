@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from phframe.backends.mujoco_model import Model
 from phframe.backends.mujoco_world import World, hold
-from phframe.core import FloatArray, IntArray
+from phframe.core import FloatArray
 
 OPPOSED = -0.7
 """Two fingers hold what they press from opposite sides: the cosine between their pushes is below this."""
 SQUEEZE = 1e-3
 """Fingers that are told to be this much closer (m) than they are, squeeze."""
+REREAD = 0.02
+"""As long as there are no more contacts than before, they are read this often (s), and so is what the fingers press."""
 LOST = 0.1
 """What the fingers have not pressed for this long (s) is no longer held."""
 
@@ -29,68 +30,66 @@ class Touches:
     def __init__(self, world: World) -> None:
         self._world, self._model = world, world.model
         self.found: list[Touch] = []
-        self._pairs = b""
-        self._last_grip = 0.0
-        self._gripped: int | None = world.held
+        self._known: set[tuple[int, int]] = set()
+        self._count, self._read_at, self._told = 0.0, 0.0, 0
+        self._last_grip = self._held_at = 0.0
 
-    def look(self, time: float, touching: bool) -> None:
-        """Write down what the arm touches at a time (s)."""
-        if touching:
+    def look(self, time: float, count: float) -> None:
+        """Write down what the arm touches at a time (s), which has so many contacts."""
+        if count > self._count or (count and time - self._read_at >= REREAD):
             self._read(time)
-        else:
-            self._pairs, self._gripped = b"", None
-        self._hold(time)
+        self._count = count
+        if time - self._held_at >= REREAD and (self._world.held is not None or (count and self._squeezing)):
+            self._held_at = time
+            self._hold(time)
 
     def forget_phase(self) -> None:
         """Write down again what is touched already, as a new phase begins."""
-        self._pairs = b""
+        self._known, self._count = set(), 0.0
+
+    def news(self) -> list[Touch]:
+        """What was found since this was last asked."""
+        told, self._told = self._told, len(self.found)
+        return self.found[told:]
+
+    @property
+    def _squeezing(self) -> bool:
+        return self._world.opening - self._world.command > SQUEEZE
 
     def _read(self, time: float) -> None:
-        contact = self._world.data.contact
-        geoms = contact.geom
-        arm = self._model.is_arm[geoms]
-        rows = np.flatnonzero(arm[:, 0] != arm[:, 1])
-        pairs = geoms[rows].tobytes()
-        if pairs == self._pairs:
-            return
-        self._pairs = pairs
-        own = np.where(arm[rows, 0], geoms[rows, 0], geoms[rows, 1])
-        other = np.where(arm[rows, 0], geoms[rows, 1], geoms[rows, 0])
-        self.found += self._new(time, own, other)
-        signs = np.where(arm[rows, 0], 1.0, -1.0)
-        self._gripped = self._between(own, other, contact.frame[rows, :3] * signs[:, None])
-
-    def _new(self, time: float, own: IntArray, other: IntArray) -> list[Touch]:
-        names, walls = self._model.names, self._model.is_wall
-        pairs = dict.fromkeys(zip(own.tolist(), other.tolist(), strict=True))
-        return [(time, names[part], names[what], bool(walls[what])) for part, what in pairs]
-
-    def _between(self, own: IntArray, other: IntArray, pushes: FloatArray) -> int | None:
-        """Row of the object that both fingers press from opposite sides, if there is one."""
-        side = self._model.sides[own]
-        for geom in np.intersect1d(other[side == 1], other[side == -1]):
-            left, right = (_mean(pushes[(other == geom) & (side == way)]) for way in (1, -1))
-            if float(left @ right) < OPPOSED:
-                return _object_row(self._model, int(geom))
-        return None
+        """Note what a part of the arm touches for the first time in this phase."""
+        self._read_at = time
+        arm, names, walls = self._model.is_arm, self._model.names, self._model.is_wall
+        for one, other in self._world.data.contact.geom.tolist():
+            if arm[one] is arm[other]:
+                continue
+            pair = (one, other) if arm[one] else (other, one)
+            if pair not in self._known:
+                self._known.add(pair)
+                self.found.append((time, names[pair[0]], names[pair[1]], walls[pair[1]]))
 
     def _hold(self, time: float) -> None:
         """An object is held from when it is squeezed until it has been out of the fingers' grip for a while."""
-        world = self._world
-        if self._gripped is not None and (world.held == self._gripped or world.opening - world.command > SQUEEZE):
+        world, gripped = self._world, self._gripped()
+        if gripped is not None:
             self._last_grip = time
-            if world.held != self._gripped:
-                hold(world, self._gripped)
+            if world.held != gripped:
+                hold(world, gripped)
         elif world.held is not None and time - self._last_grip > LOST:
             hold(world, None)
 
+    def _gripped(self) -> int | None:
+        """Row of the object that both fingers press from opposite sides, if there is one."""
+        contact, sides, rows = self._world.data.contact, self._model.sides, self._model.rows
+        pushes: dict[int, dict[int, FloatArray]] = {}
+        for index, (one, other) in enumerate(contact.geom.tolist()):
+            for finger, thing, sign in ((one, other, 1.0), (other, one, -1.0)):
+                if sides[finger] and rows[thing] is not None:
+                    fingers = pushes.setdefault(rows[thing], {})
+                    fingers[sides[finger]] = fingers.get(sides[finger], 0.0) + sign * contact.frame[index, :3]
+        held = (row for row, fingers in pushes.items() if len(fingers) == 2 and _opposed(*fingers.values()))
+        return next(held, None)
 
-def _mean(directions: FloatArray) -> FloatArray:
-    total = directions.sum(axis=0)
-    return np.asarray(total / np.linalg.norm(total))
 
-
-def _object_row(model: Model, geom: int) -> int | None:
-    body = int(model.mj.geom_bodyid[geom])
-    rows = np.flatnonzero(model.bodies == body)
-    return int(rows[0]) if len(rows) else None
+def _opposed(one: FloatArray, other: FloatArray) -> bool:
+    return float(one @ other) < OPPOSED * float(np.linalg.norm(one) * np.linalg.norm(other))

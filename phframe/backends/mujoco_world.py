@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import mujoco
 import numpy as np
+from numpy.typing import ArrayLike
 
 from phframe.backends.mujoco_model import Model
 from phframe.backends.mujoco_shelf import BOX, PLANE
@@ -57,14 +59,12 @@ class World:
     @property
     def opening(self) -> float:
         """Distance between the fingers (m)."""
-        return self.model.arm.shape.min_opening + float(
-            (self.data.qpos[self.model.fingers] - _closed(self.model)).sum()
-        )
+        return self.model.arm.shape.min_opening + float((self.data.qpos[self.model.fingers] - self.model.closed).sum())
 
     @property
     def command(self) -> float:
         """The distance between the fingers that they are told to have (m)."""
-        told = self.data.ctrl[self.model.dof :] - _closed(self.model)
+        told = self.data.ctrl[self.model.dof :] - self.model.closed
         return self.model.arm.shape.min_opening + float(told.sum())
 
     @property
@@ -84,13 +84,10 @@ class World:
         return np.asarray(speeds)
 
 
-def finger_values(model: Model, opening: float) -> FloatArray:
-    """What the two finger joints are ``(2,)`` at an opening (m)."""
-    return _closed(model) + (opening - model.arm.shape.min_opening) / 2.0
-
-
-def _closed(model: Model) -> FloatArray:
-    return np.array([joint.lower for joint in model.arm.fingers.joints])
+def finger_values(model: Model, openings: ArrayLike) -> FloatArray:
+    """What the two finger joints are ``(..., 2)`` at openings ``(...)`` (m)."""
+    travel = (np.asarray(openings) - model.arm.shape.min_opening) / 2.0
+    return np.asarray(model.closed + travel[..., None])
 
 
 def restore(world: World, state: State) -> None:
@@ -179,17 +176,22 @@ def spill(world: World) -> None:
             _take_out(world, int(row), lying[row])
 
 
-def refuse_divergence(world: World) -> None:
-    """Raise where a body is nowhere or faster than physics allows.
+def refuse_divergence(world: World, warnings: Sequence[str]) -> None:
+    """Raise where a body is nowhere or faster than physics allows, or MuJoCo has warned.
 
     Raises:
-        SimulationDivergedError: With the object and its speed.
+        SimulationDivergedError: With the object and its speed, or the warning.
     """
-    speeds, data = world.speeds, world.data
+    data = world.data
+    if np.abs(data.qvel).max() < TOP_SPEED and not warnings:  # nothing that is not a number is less
+        return
+    speeds = world.speeds
     if not (speeds < TOP_SPEED).all():
         row = int(np.flatnonzero(~(speeds < TOP_SPEED))[0])
         what = f"{world.model.scene.ids[row]!r} moves at {speeds[row]:.3g} m/s"
         raise SimulationDivergedError(f"the simulation diverged: {what}; try a smaller backend step")
+    if warnings:
+        raise SimulationDivergedError(f"the simulation diverged: {warnings[0].strip()}")
     if not (np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all()):
         raise SimulationDivergedError("the simulation diverged: the arm is nowhere; try a smaller backend step")
 

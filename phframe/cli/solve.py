@@ -93,7 +93,8 @@ OptionTexts = Annotated[
         "--option",
         metavar="KEY=VALUE",
         help="An option of the planner, or with a prefix of another part: margin=0.02, backend.step=0.002, "
-        "arm.link_width=0.1, plan_backend.KEY, topology.KEY, scenes.count=12. Repeatable. 'phframe planners NAME' and so on list them.",
+        "arm.link_width=0.1, plan_backend.KEY, topology.KEY, scenes.count=12. Repeatable. 'phframe planners NAME' and so "
+        "on list them.",
         autocompletion=completion.options,
     ),
 ]

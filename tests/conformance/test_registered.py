@@ -30,6 +30,9 @@ from phframe.testing import (
 DETERMINISTIC = ("phia", "ooa")
 """Planners that promise that the order of objects does not matter."""
 
+NEEDS = {"mujoco": pytest.mark.needs_mujoco, "pybullet": pytest.mark.needs_pybullet}
+"""Backends that come with an extra."""
+
 
 def names(kind: Kind) -> list[str]:
     return [entry.name for entry in catalogue().extensions(kind)]
@@ -67,7 +70,13 @@ def physics(backend: str, arm: str) -> PhysicsUnderTest:
 
 
 @each_check(PHYSICS_CHECKS)
-@pytest.mark.parametrize(("backend", "arm"), list(product(names(Kind.BACKEND), names(Kind.ARM))))
+@pytest.mark.parametrize(
+    ("backend", "arm"),
+    [
+        pytest.param(backend, arm, marks=NEEDS.get(backend, ()))
+        for backend, arm in product(names(Kind.BACKEND), names(Kind.ARM))
+    ],
+)
 def test_physics(backend: str, arm: str, check: Check[PhysicsUnderTest]) -> None:
     try:
         subject = physics(backend, arm)

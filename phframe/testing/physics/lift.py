@@ -98,8 +98,7 @@ def _seen_from_above(q: FloatArray, arm: ArmModel[Any], mount: Mount) -> FloatAr
 
 
 def _speeds(times: FloatArray, positions: FloatArray) -> FloatArray:
-    """Central differences where the path goes on, 0 at its ends and corners of no duration."""
-    speeds = np.zeros_like(positions)
-    spans = times[2:] - times[:-2]
-    speeds[1:-1] = (positions[2:] - positions[:-2]) / np.where(spans > 0.0, spans, np.inf)[:, None]
-    return speeds
+    """Central differences, one-sided ones at the ends: a path that ends at full speed is not hurried at its end."""
+    before, after = np.maximum(np.arange(len(times)) - 1, 0), np.minimum(np.arange(len(times)) + 1, len(times) - 1)
+    spans = (times[after] - times[before])[:, None]
+    return np.asarray((positions[after] - positions[before]) / np.where(spans > 0.0, spans, np.inf))

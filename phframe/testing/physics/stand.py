@@ -58,7 +58,9 @@ class Stand:
         if state.arm is None:
             opening = path.rules[path.phases[0]].opening
         else:
-            path = starting_from(path, state.arm.gripper, path.rules.get(Phase.APPROACH, rule()))
+            path = starting_from(
+                path, state.arm.gripper, path.rules.get(Phase.APPROACH, rule(opening=state.arm.commanded_opening))
+            )
             opening = state.arm.commanded_opening
         timed = time_path(path, opening, self.arm.force_limit if force_limit is None else force_limit)
         return self.lifted(state, timed)
