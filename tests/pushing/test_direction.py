@@ -85,6 +85,13 @@ def test_where_there_is_no_room_at_the_wall_the_other_direction_is_taken() -> No
     assert last.choices[-1] == Choice.NOT_CLEARING
 
 
+def test_where_neither_direction_clears_the_papers_comes_first() -> None:
+    for y, direction in ((0.12, -1), (0.13, 1)):
+        pushes = Case(Shelf(0.6, 0.25), (0.45, 0.125), np.array([[0.2, y]])).pushes
+        assert [push.sweep.direction for push in pushes] == [direction, -direction]
+        assert not any(push.clears for push in pushes)
+
+
 def test_where_the_arm_does_not_fit_nothing_is_proposed() -> None:
     for width, fits in ((0.12, False), (0.25, True)):
         corridor = Corridor(np.zeros(2), 0.0, width / 2, 0.05, 0.0, 0.4)

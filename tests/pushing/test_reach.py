@@ -146,6 +146,12 @@ def _drawn_back(outline: Outline, length: float) -> Outline:
     return Outline(outline.part, np.array([[x0 - length, y0], [x1, y0], [x1, y1], [x0 - length, y1]]))
 
 
+def test_the_yaw_deviates_by_up_to_15_degrees_either_way() -> None:
+    assert YAW_STEPS[0] == 0.0
+    assert sorted(YAW_STEPS) == pytest.approx(sorted(-step for step in YAW_STEPS))
+    assert max(YAW_STEPS) == pytest.approx(math.radians(15.0))
+
+
 def test_a_neighbour_on_one_side_turns_the_gripper_away() -> None:
     found = grasp(scene_of((0.4, 0.3), (0.42, 0.37)))
     assert isinstance(found, Action)

@@ -85,6 +85,15 @@ def test_the_fingertip_goes_less_deep_before_it_gives_way() -> None:
     assert push.sweep.depth == pytest.approx(0.4 - 1.2 * RADIUS)
 
 
+def test_beside_the_target_the_fingertip_goes_as_deep_as_1_2_radii_allow() -> None:
+    """The finger's near side passes the target's centre line at 3 cm."""
+    case = Case(WIDE, (0.4, 0.3), np.array([[0.4, 0.3 + 0.03 + 0.009 + 0.009 + RADIUS + 0.005]]))
+    push = case.fitted(1, 0.0)
+    assert push is not None
+    assert push.choices == ()
+    assert push.sweep.depth == pytest.approx(0.4 - math.sqrt(0.036**2 - 0.03**2))
+
+
 def test_beside_a_wall_the_arm_tilts_where_that_clears() -> None:
     """The corridor is angled, so that a straight arm's link meets the mouth's wall."""
     case = Case(WIDE, (0.45, 0.55), np.array([[0.25, 0.4]]))

@@ -105,7 +105,7 @@ def test_a_simulation_that_diverges_while_executing_is_a_result_with_what_was_do
 def test_a_grasp_that_misses_is_reached_or_tried_again() -> None:
     """The target is moved away under the closing fingers' nose, farther than a plan can know."""
 
-    class Misses(PHIA):
+    class Misses(Noting):
         def search(self, task: Task) -> Plan:
             plan = super().search(task)
             *pushes, grasp = plan.actions
@@ -113,7 +113,10 @@ def test_a_grasp_that_misses_is_reached_or_tried_again() -> None:
             short = replace(grasp, path=replace(grasp.path, poses=poses))
             return replace(plan, actions=(*pushes, short))
 
-    episode = run(ExecutionWorld(WorldSpec(scene_of((0.4, 0.3)))), Misses(PushingOptions()))
+    planner = Misses()
+    episode = run(ExecutionWorld(WorldSpec(scene_of((0.4, 0.3)))), planner)
+    assert [len(task.rejected) for task in planner.tasks] == list(range(len(episode.plans)))
+    assert [step.action for step in episode.steps[:-1]] == list(planner.tasks[-1].rejected)
     assert (episode.status, episode.reason) == (Status.REACHED, "the target was not held")
     assert all(step.after.held is None for step in episode.steps)
 
