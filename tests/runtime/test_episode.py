@@ -161,6 +161,17 @@ def test_the_time_limit_is_for_all_planning_together() -> None:
     assert (timeout.status, timeout.steps, len(timeout.plans)) == (Status.TIMEOUT, (), 1)
 
 
+def test_the_limit_on_simulations_is_for_all_planning_together() -> None:
+    planner, name = Noting(), first_target_of(USUAL)
+    run(Meddling(SPEC, {1: shifted(name, (0.0, 0.02))}), planner, loop=Loop(simulations=50))
+    first, second = planner.tasks
+    assert first.budget.simulations == 50
+    assert second.budget.simulations == 50 - first.cost.simulated_actions
+    enough = first.cost.simulated_actions
+    short = run(Meddling(SPEC, {1: shifted(name, (0.0, 0.02))}), loop=Loop(simulations=enough))
+    assert (short.status, short.replans, len(short.steps)) == (Status.TIMEOUT, 1, 1)
+
+
 def test_every_replan_has_chance_of_its_own_and_the_same_for_the_same_seed() -> None:
     draws = []
     for seed in (5, 5, 6):

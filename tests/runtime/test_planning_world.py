@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from dataclasses import replace
+from multiprocessing import active_children
 
 import numpy as np
 import pytest
@@ -83,11 +84,14 @@ def test_many_at_once_without_workers() -> None:
 @pytest.mark.slow
 def test_many_at_once_with_two_workers_come_to_the_same_bits_in_the_same_order() -> None:
     pairs = [PAIRS[number] for number in (3, 0, 2, 0, 1, 3)]
+    before = set(active_children())
     with PlanningWorld(SPEC, workers=2) as world:
         assert world.apply_many(pairs) == [AFTER[number] for number in (3, 0, 2, 0, 1, 3)]
+        assert len(set(active_children()) - before) == 2
         task = world.task(BASIC.initial_state(), ENGINE, np.random.default_rng(0), budget=Budget(simulations=6))
         assert task.apply_many(pairs[:2]) == [AFTER[3], AFTER[0]]
         assert task.cost.simulated_actions == 2
+    assert set(active_children()) <= before, "the workers end with the world"
 
 
 def test_an_action_that_the_arm_cannot_do_changes_nothing() -> None:
