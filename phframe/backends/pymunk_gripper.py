@@ -35,8 +35,8 @@ def set_opening(world: ShelfSpace, opening: float) -> None:
     if opening == world.opening:
         return
     shift = (opening - world.measures.min_opening) / 2.0
-    for polygon, outline in world.arm.fingers:
-        polygon.unsafe_set_vertices([(float(x), float(y) + outline.side * shift) for x, y in outline.vertices])
+    for finger in world.arm.fingers:
+        finger.polygon.unsafe_set_vertices([(x, y + finger.side * shift) for x, y in finger.corners])
     world.opening = world.command = opening
 
 
@@ -56,13 +56,9 @@ def gripped(world: ShelfSpace, items: Sequence[Item]) -> Item | None:
 
 def _gaps(world: ShelfSpace, item: Item) -> list[float]:
     """Distance from each finger's inner face to an object's centre (m); negative where it is not beside the finger."""
-    center = world.arm.body.world_to_local(item.body.position)
-    return [
-        world.opening / 2.0 - outline.side * center.y
-        if outline.vertices[:, 0].min() <= center.x <= outline.vertices[:, 0].max()
-        else -1.0
-        for _, outline in world.arm.fingers
-    ]
+    x, y = world.arm.body.world_to_local(item.body.position)
+    half = world.opening / 2.0
+    return [half - f.side * y if f.back <= x <= f.front else -1.0 for f in world.arm.fingers]
 
 
 def hold(world: ShelfSpace, item: Item, command: float) -> None:

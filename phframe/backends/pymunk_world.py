@@ -50,6 +50,25 @@ class Item:
     floor: tuple[pymunk.Constraint, pymunk.Constraint]
 
 
+@dataclass(frozen=True, slots=True)
+class Finger:
+    """A part of the arm that moves as the gripper opens, in plain numbers: it is asked for at every step of a grasp.
+
+    Attributes:
+        polygon: Its shape.
+        side: Which way it moves: +1 left, -1 right.
+        corners: As it lies when closed, in the fingertip frame (m).
+        back: Least x of the corners (m).
+        front: Greatest x of the corners (m).
+    """
+
+    polygon: pymunk.Poly
+    side: int
+    corners: tuple[tuple[float, float], ...]
+    back: float
+    front: float
+
+
 @dataclass(slots=True)
 class Arm:
     """The arm: a body that a force-limited drive draws along with a carrier, which goes exactly where it is told.
@@ -59,17 +78,14 @@ class Arm:
         carrier: Kinematic.
         drive: Joins the two; its impulse is what the world pushes back with.
         parts: Its shapes, and the outlines they have when the fingers are closed.
+        fingers: The parts that move with the opening.
     """
 
     body: pymunk.Body
     carrier: pymunk.Body
     drive: pymunk.PivotJoint
     parts: tuple[tuple[pymunk.Poly, Outline], ...]
-
-    @property
-    def fingers(self) -> tuple[tuple[pymunk.Poly, Outline], ...]:
-        """The parts that move with the opening."""
-        return tuple(part for part in self.parts if part[1].side)
+    fingers: tuple[Finger, ...]
 
 
 @dataclass(slots=True)
@@ -222,12 +238,16 @@ def _add_arm(space: pymunk.Space, shape: ArmShape, surfaces: Surfaces, mass: flo
     drive = pymunk.PivotJoint(carrier, body, (0.0, 0.0), (0.0, 0.0))
     align = pymunk.GearJoint(carrier, body, 0.0, 1.0)
     space.add(body, carrier, drive, align)
-    parts = []
+    parts, fingers = [], []
     for outline in shape.closed:
-        polygon = pymunk.Poly(body, [(float(x), float(y)) for x, y in outline.vertices])
+        corners = tuple((x, y) for x, y in outline.vertices.tolist())
+        polygon = pymunk.Poly(body, corners)
         polygon.friction = surfaces.partner_factor(surfaces.arm)
         polygon.collision_type = ARM
         polygon.filter = pymunk.ShapeFilter(group=1)
         space.add(polygon)
         parts.append((polygon, outline))
-    return Arm(body, carrier, drive, tuple(parts))
+        if outline.side:
+            depths = [x for x, _ in corners]
+            fingers.append(Finger(polygon, outline.side, corners, min(depths), max(depths)))
+    return Arm(body, carrier, drive, tuple(parts), tuple(fingers))

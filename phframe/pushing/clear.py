@@ -50,7 +50,7 @@ class Clearing:
                 return self._failed(situation.reason)
             if len(situation.members):
                 if failure := self._push(situation, blocked=bool(also)):
-                    return self._failed(failure)
+                    return self._failed(f"grasp blocked by {', '.join(also)}: {failure}" if also else failure)
                 also = ()
                 continue
             grasp = self._pushing.grasp(situation)

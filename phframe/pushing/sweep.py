@@ -16,7 +16,7 @@ from phframe.pushing.reach import LEAST_AHEAD
 from phframe.pushing.tilted_sweep import Choices, Component, Direction, Push, TiltedSweep
 
 TILTS = tuple(math.radians(degrees) for degrees in (0.0, 10.0, -10.0, 20.0, -20.0, 30.0, -30.0))
-"""Of the arm against the corridor, tried in this order (rad)."""
+"""Of the arm against the corridor, the way it pushes, tried in this order (rad)."""
 
 
 class SweepGeometry:
@@ -56,7 +56,8 @@ class SweepGeometry:
             yield replace(push, choices=(*push.choices, Choice.NOT_CLEARING))
 
     def _tilted(self, direction: Direction, choices: Choices) -> Iterator[Push]:
-        for tilt in TILTS if self._has_room(direction) else TILTS[:1]:
+        for lean in TILTS if self._has_room(direction) else TILTS[:1]:
+            tilt = lean * direction
             if math.cos(self._corridor.angle + tilt) < LEAST_AHEAD:
                 continue
             settled = (*choices, Choice.TILTED) if tilt else choices

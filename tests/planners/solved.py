@@ -27,8 +27,8 @@ def pushes(planner: str) -> Iterator[tuple[Scene, State, Decision, Corridor]]:
     """Every push of every plan: the scene, the state before it, why it was chosen, and its corridor."""
     for episode in episodes(planner):
         for plan in episode.plans:
-            befores = [episode.scene.initial_state(), *plan.expected]
-            for before, decision, action in zip(befores, plan.decisions, plan.actions, strict=False):
+            states = [episode.scene.initial_state(), *plan.expected]
+            for before, decision, action in zip(states, plan.decisions, plan.actions, strict=False):
                 if not action.grasps:
                     assert decision.corridor is not None
                     yield episode.scene, before, decision, decision.corridor
@@ -37,5 +37,3 @@ def pushes(planner: str) -> Iterator[tuple[Scene, State, Decision, Corridor]]:
 def plan_of(planner: str, scene: str) -> Plan:
     """The first plan for a published scene."""
     return next(outcome.episode.plans[0] for outcome in outcomes(planner) if outcome.scene == scene)
-
-

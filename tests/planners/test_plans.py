@@ -21,11 +21,16 @@ from tests.planners.solved import PLANNERS, episodes, plan_of
 from tests.pushing.parts import scene_of
 
 both = pytest.mark.parametrize("planner", PLANNERS)
-TYPICAL = ("vieira/basic", "vieira/example-08", "papallas/s03", "papallas/s08")
+TYPICAL = ("vieira/basic", "vieira/example-08", "papallas/s03")
 
 
 def planned(
-    scene: Scene, planner: str = "phia", *, budget: Budget = Budget(), rejected: tuple[Action, ...] = (), **options: object
+    scene: Scene,
+    planner: str = "phia",
+    *,
+    budget: Budget = Budget(),  # noqa: B008 - immutable
+    rejected: tuple[Action, ...] = (),
+    **options: object,
 ) -> Plan:
     with PlanningWorld(WorldSpec(scene)) as world:
         task = world.task(
@@ -42,14 +47,14 @@ def planned(
 @both
 def test_expected_states_are_what_the_actions_make_of_them_bit_by_bit(planner: str) -> None:
     compared = 0
-    for episode in episodes(planner)[::4]:
+    for episode in episodes(planner)[::6]:
         with PlanningWorld(WorldSpec(episode.scene)) as world:
             state = episode.scene.initial_state()
             for action, expected in zip(episode.plans[0].actions, episode.plans[0].expected, strict=True):
                 state = world.apply(state, action).state
                 assert state == expected
                 compared += 1
-    assert compared >= 10
+    assert compared >= 8
 
 
 @both
@@ -73,32 +78,33 @@ SOLVE_ALL = """
 import json, sys
 from phframe.runtime.solve import solve
 from phframe.runtime.summary import summarize
-planner, *scenes = sys.argv[1:]
-print(json.dumps([summarize(solve(scene, planner=planner, seed=3)) for scene in scenes]))
+scenes = sys.argv[1:]
+print(json.dumps([summarize(solve(scene, planner=planner, seed=3)) for planner in ("phia", "ooa") for scene in scenes]))
 """
 
 
 @pytest.mark.slow
-@both
-def test_two_processes_come_to_the_same_summary(planner: str) -> None:
+def test_two_processes_come_to_the_same_summaries() -> None:
     environment = {**os.environ, "PYTHONHASHSEED": "12345", "PYTHONPATH": os.pathsep.join(sys.path)}
-    command = [sys.executable, "-c", SOLVE_ALL, planner, *TYPICAL]
+    command = [sys.executable, "-c", SOLVE_ALL, *TYPICAL]
     theirs = json.loads(subprocess.run(command, env=environment, check=True, capture_output=True).stdout)
-    ours = [summarize(solve(name, planner=planner, seed=3)) for name in TYPICAL]
+    ours = [summarize(solve(name, planner=planner, seed=3)) for planner in PLANNERS for name in TYPICAL]
     for one, other in zip(ours, theirs, strict=True):
         assert {**one, "planning_time": 0} == {**other, "planning_time": 0}
 
 
 @both
-@pytest.mark.parametrize("most", [1, 2])
-def test_no_more_actions_than_allowed(planner: str, most: int) -> None:
-    plan = planned(find_scene("vieira/example-04"), planner, max_actions=most)
+@pytest.mark.parametrize("short", [1, 2])
+def test_no_more_actions_than_allowed(planner: str, short: int) -> None:
+    most = len(plan_of(planner, "vieira/example-03").actions) - 1 - short
+    plan = planned(find_scene("vieira/example-03"), planner, max_actions=most)
     assert (plan.status, len(plan.actions)) == (Status.FAILED, most)
     assert plan.reason == f"the corridor is not empty after {most} actions"
 
 
 def test_the_grasp_is_not_counted_among_them() -> None:
-    plan = planned(find_scene("vieira/example-04"), max_actions=len(plan_of("phia", "vieira/example-04").actions) - 1)
+    enough = len(plan_of("phia", "vieira/example-03").actions) - 1
+    plan = planned(find_scene("vieira/example-03"), max_actions=enough)
     assert plan.status is Status.RETRIEVED
 
 
@@ -112,13 +118,14 @@ def test_time_and_simulations_that_run_out_are_a_result(planner: str) -> None:
 
 
 @both
-def test_rejected_actions_are_not_proposed_again(planner: str) -> None:
-    scene, rejected = find_scene("vieira/basic"), ()
-    for _ in range(3):
+@pytest.mark.parametrize("name", ["vieira/basic", "vieira/example-08", "vieira/simple-05"])
+def test_rejected_actions_are_not_proposed_again(planner: str, name: str) -> None:
+    scene, rejected = find_scene(name), tuple(plan_of(planner, name).actions)
+    for _ in range(4):
         plan = planned(scene, planner, rejected=rejected)
-        assert plan.actions
-        assert not set(plan.actions) & set(rejected)
-        rejected = (*rejected, plan.actions[0])  # type: ignore[assignment]
+        assert not [action.name for action in plan.actions if action in rejected]
+        rejected = (*rejected, *plan.actions)
+    assert len(rejected) > len(plan_of(planner, name).actions)
 
 
 def wide_target(radius: float) -> Scene:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from phframe.bench.outcomes import is_cleared, tally
+from phframe.bench.outcomes import tally, was_cleared
 from phframe.core import Condition, Status
 from phframe.pushing.choice import Choice
 from phframe.pushing.corridor import find_corridor
@@ -21,7 +21,7 @@ THRESHOLD = 1.1 * 0.018 + 2 * 0.03
 def test_as_many_are_solved_as_the_specification_asks_for(planner: str, cleared: int, retrieved: int) -> None:
     assert len(PUBLISHED) == len(episodes(planner)) == 31
     figures = tally(planner, "all", outcomes(planner))
-    unsolved = [(each.scene, each.episode.reason) for each in outcomes(planner) if not is_cleared(each.episode)]
+    unsolved = [(each.scene, each.episode.reason) for each in outcomes(planner) if not was_cleared(each.episode)]
     assert figures.cleared >= cleared, unsolved
     assert figures.retrieved >= retrieved, unsolved
 
@@ -124,7 +124,9 @@ def test_ooa_pushes_one_object_at_a_time() -> None:
 @both
 def test_planning_does_not_take_long(planner: str) -> None:
     """Ten times the bar that ``make bench`` measures: this only finds what got slow by orders."""
-    seconds = sorted(plan.cost.total / max(plan.cost.simulated_actions, 1) for e in episodes(planner) for plan in e.plans)
+    seconds = sorted(
+        plan.cost.total / max(plan.cost.simulated_actions, 1) for e in episodes(planner) for plan in e.plans
+    )
     assert seconds[len(seconds) // 2] < 0.1
     assert max(episode.cost.total for episode in episodes(planner)) < 5.0
 

@@ -6,11 +6,15 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from hypothesis import settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.core import Corridor, Cylinder, FloatArray, Outline, Scene, SceneObject, Shelf
 
+often = settings(max_examples=25, deadline=None)
+"""Enough examples to find what is wrong within some runs; machines that are busy are no failure."""
 ARM = PlanarArm(PlanarArmOptions()).shape
 SHELF = Shelf(depth=0.6, width=0.6)
 RADIUS = 0.03
@@ -66,7 +70,7 @@ def distance_from_walls(points: FloatArray, shelf: Shelf) -> FloatArray:
     for along, across in ((-x, y), (-x, shelf.width - y)):
         outside = np.hypot(np.maximum(along, 0.0), np.maximum(across, 0.0))
         gaps.append(np.where((along < 0.0) & (across < 0.0), np.maximum(along, across), outside))
-    return np.minimum(np.minimum(*gaps), shelf.depth - x)
+    return np.asarray(np.minimum(np.minimum(*gaps), shelf.depth - x))
 
 
 def gap_to_walls(outlines: Sequence[Outline], pose: FloatArray, shelf: Shelf = SHELF) -> float:
@@ -117,10 +121,10 @@ def highest(outlines: Sequence[Outline], tilt: float, x: float, direction: int) 
     return max(reaches, default=-math.inf)
 
 
-def in_strip(corridor: Corridor, target: FloatArray, points: FloatArray) -> np.ndarray:
+def in_strip(corridor: Corridor, target: FloatArray, points: FloatArray) -> NDArray[np.bool_]:
     """The paper's membership by cross and dot products: no frame, no rotation."""
     ahead = np.array([math.cos(corridor.angle), math.sin(corridor.angle)])
     offset = points - target
     across = ahead[0] * offset[:, 1] - ahead[1] * offset[:, 0]
     along = (points - corridor.origin) @ ahead
-    return (np.abs(across) <= corridor.half_width) & (along >= 0.0) & (offset @ ahead < 0.0)
+    return np.asarray((np.abs(across) <= corridor.half_width) & (along >= 0.0) & (offset @ ahead < 0.0))

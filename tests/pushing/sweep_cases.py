@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from phframe.core import Corridor, FloatArray, Shelf
+from phframe.core import Corridor, FloatArray, Outline, Shelf
 from phframe.pushing.arm_view import ArmView
 from phframe.pushing.corridor import find_corridor
 from phframe.pushing.grouping import bounding_rectangle
@@ -48,10 +48,11 @@ class Case:
     def geometry(self) -> SweepGeometry:
         return SweepGeometry(self.corridor, self.local, RADIUS, RADIUS, self.view)
 
-    def fitted(self, direction: Direction, tilt: float) -> Push | None:
+    def fitted(self, direction: Direction, tilt: float, outlines: tuple[Outline, ...] = ARM.closed) -> Push | None:
         """The sweep in one direction at one tilt, if it fits."""
+        view = ArmView(self.shelf, outlines, WALL_CLEARANCE)
         component = Component(self.local, bounding_rectangle(self.local), RADIUS)
-        return TiltedSweep(self.corridor, component, self.view, RADIUS, direction=direction, tilt=tilt).push(())
+        return TiltedSweep(self.corridor, component, view, RADIUS, direction=direction, tilt=tilt).push(())
 
     @property
     def pushes(self) -> list[Push]:

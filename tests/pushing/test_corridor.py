@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from phframe.core import Corridor, Cylinder, FloatArray, Infeasible, Shelf
 from phframe.pushing.corridor import corridor_half_width, find_corridor
-from tests.pushing.parts import ARM, RADIUS, SHELF, in_strip, places, scene_of, shelves
+from tests.pushing.parts import ARM, RADIUS, SHELF, in_strip, often, places, scene_of, shelves
 
 widths = st.floats(0.05, 0.15)
 
@@ -26,9 +26,10 @@ def found(target: tuple[float, float], shelf: Shelf = SHELF, w: float = 0.12) ->
 def distance_to_line(point: FloatArray, corridor: Corridor) -> float:
     """Of a point from the line through the mouth corner along the corridor; positive to its left."""
     x, y = point - corridor.origin
-    return y * math.cos(corridor.angle) - x * math.sin(corridor.angle)
+    return float(y * math.cos(corridor.angle) - x * math.sin(corridor.angle))
 
 
+@often
 @given(st.data(), shelves(), widths)
 def test_in_a_shelf_wide_enough_every_target_has_a_corridor_that_ends_at_it(
     data: st.DataObject, shelf: Shelf, w: float
@@ -39,6 +40,7 @@ def test_in_a_shelf_wide_enough_every_target_has_a_corridor_that_ends_at_it(
     assert (corridor.half_width, corridor.start) == (w, 0.0)
 
 
+@often
 @given(st.data(), shelves(), widths)
 def test_far_from_both_walls_the_corridor_is_straight(data: st.DataObject, shelf: Shelf, w: float) -> None:
     x, y = data.draw(places(shelf))
@@ -49,6 +51,7 @@ def test_far_from_both_walls_the_corridor_is_straight(data: st.DataObject, shelf
         assert (corridor.angle, corridor.axis, corridor.end) == (0.0, y, x)
 
 
+@often
 @given(st.data(), shelves(), widths, st.floats(0.0, 0.99))
 def test_near_a_wall_a_line_through_the_far_mouth_corner_passes_the_target_at_distance_w(
     data: st.DataObject, shelf: Shelf, w: float, share: float
@@ -67,6 +70,7 @@ def test_the_angle_of_the_specification() -> None:
     assert found((x, y)).angle == pytest.approx(math.atan2(y, x) - math.asin(w / math.hypot(x, y)))
 
 
+@often
 @given(st.data(), shelves(), widths)
 def test_north_and_south_are_mirror_images(data: st.DataObject, shelf: Shelf, w: float) -> None:
     x, y = data.draw(places(shelf))
@@ -80,6 +84,7 @@ def test_north_and_south_are_mirror_images(data: st.DataObject, shelf: Shelf, w:
     np.testing.assert_allclose(mirrored[:, 1] - other.axis, one.axis - local[:, 1], atol=1e-12)
 
 
+@often
 @given(st.data(), shelves(), widths)
 def test_what_counts_is_what_the_definition_says(data: st.DataObject, shelf: Shelf, w: float) -> None:
     target = data.draw(places(shelf, 0.05))

@@ -4,39 +4,35 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from phframe.core import Corridor, Shelf
 from phframe.pushing.arm_view import ArmView
 from phframe.pushing.choice import Choice
 from phframe.pushing.sweep import SweepGeometry
 from phframe.pushing.tilted_sweep import Push
-from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS
+from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, often
 from tests.pushing.sweep_cases import Case, cases
 
 TARGET = (0.45, 0.3)
 WIDE = Shelf(0.6, 0.6)
+OTHER = {Choice.OTHER_DIRECTION, Choice.SPANS_CORRIDOR}
 
 
 def first(case: Case) -> Push:
     return case.pushes[0]
 
 
-def spans(case: Case) -> bool:
-    across = case.local[:, 1] - case.corridor.axis
-    return bool(across.min() <= RADIUS - HALF_WIDTH and across.max() >= HALF_WIDTH - RADIUS)
-
-
-@settings(max_examples=60, deadline=None)
+@often
 @given(cases())
 def test_towards_the_side_of_the_centre_line_on_which_the_rectangle_lies(case: Case) -> None:
+    """Where a sweep goes the other way, it says so."""
     middle = (case.local[:, 1].min() + case.local[:, 1].max()) / 2.0 - case.corridor.axis
-    if spans(case) or abs(middle) < 1e-9:
+    if abs(middle) < 1e-9:
         return
     for push in case.pushes:
         follows = push.sweep.direction == (1 if middle > 0.0 else -1)
-        assert (Choice.OTHER_DIRECTION not in push.choices) is follows
-        assert Choice.SPANS_CORRIDOR not in push.choices
+        assert bool(OTHER & {*push.choices}) is not follows
 
 
 @pytest.mark.parametrize(("y", "direction"), [(0.31, 1), (0.29, -1), (0.2, -1), (0.4, 1)])
@@ -52,18 +48,30 @@ def test_on_the_line_the_middle_of_the_shelf_decides(width: float, direction: in
     assert (push.sweep.direction, push.choices) == (direction, ())
 
 
-@pytest.mark.parametrize(("shift", "direction"), [(-0.02, 1), (0.02, -1)])
-def test_what_spans_the_corridor_is_swept_from_the_nearer_wall(shift: float, direction: int) -> None:
-    case = Case(WIDE, (0.45, 0.3 + shift), np.array([[0.2, 0.205 + shift], [0.2, 0.395 + shift]]))
-    assert spans(case)
+def spanning(y: float, *more: tuple[float, float]) -> Case:
+    """A rectangle that reaches from edge to edge of a corridor that is at the south wall but for 2 cm."""
+    members = np.array([(0.2, y - 0.095), (0.2, y + 0.095), *more])
+    case = Case(WIDE, (0.45, y), members)
+    across = case.local[:, 1] - case.corridor.axis
+    assert across.min() <= RADIUS - HALF_WIDTH
+    assert across.max() >= HALF_WIDTH - RADIUS
+    return case
+
+
+def test_what_spans_the_corridor_goes_the_papers_way_where_that_clears() -> None:
+    for y, direction in ((0.3, -1), (0.28, -1), (0.32, 1)):
+        push = first(spanning(y, (0.25, y + direction * 0.1)))
+        assert (push.sweep.direction, OTHER & {*push.choices}, push.clears) == (direction, set(), True)
+
+
+def test_else_what_spans_the_corridor_is_swept_from_the_nearer_wall() -> None:
+    """The paper's way is south, where there is no room between corridor and wall."""
+    case = spanning(0.14, (0.25, 0.04))
     push = first(case)
-    assert (push.sweep.direction, push.choices[0]) == (direction, Choice.SPANS_CORRIDOR)
-
-
-def test_less_than_the_whole_corridor_does_not_span_it() -> None:
-    case = Case(WIDE, TARGET, np.array([[0.2, 0.211], [0.2, 0.4]]))
-    assert not spans(case)
-    assert Choice.SPANS_CORRIDOR not in first(case).choices
+    assert (push.sweep.direction, push.clears) == (1, True)
+    assert Choice.SPANS_CORRIDOR in push.choices
+    narrower = Case(WIDE, (0.45, 0.14), np.array([[0.2, 0.06], [0.2, 0.21]]))
+    assert OTHER & {*first(narrower).choices} == {Choice.OTHER_DIRECTION}
 
 
 def test_where_there_is_no_room_at_the_wall_the_other_direction_is_taken() -> None:
@@ -74,6 +82,14 @@ def test_where_there_is_no_room_at_the_wall_the_other_direction_is_taken() -> No
     assert push.choices[0] == Choice.OTHER_DIRECTION
     last = case.pushes[-1]
     assert (last.sweep.direction, last.clears) == (-1, False)
+    assert last.choices[-1] == Choice.NOT_CLEARING
+
+
+def test_where_neither_direction_clears_the_papers_comes_first() -> None:
+    for y, direction in ((0.12, -1), (0.13, 1)):
+        pushes = Case(Shelf(0.6, 0.25), (0.45, 0.125), np.array([[0.2, y]])).pushes
+        assert [push.sweep.direction for push in pushes] == [direction, -direction]
+        assert not any(push.clears for push in pushes)
 
 
 def test_where_the_arm_does_not_fit_nothing_is_proposed() -> None:

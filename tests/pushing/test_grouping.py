@@ -7,11 +7,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phframe.pushing.grouping import bounding_rectangle, closest_component
+from tests.pushing.parts import often
 
 coordinate = st.integers(0, 6).map(lambda step: step / 8.0)  # exact in binary, so that ties are ties
 labelled = st.lists(st.tuples(coordinate, coordinate, st.integers(0, 3)), min_size=1, max_size=10)
 
 
+@often
 @given(labelled, coordinate)
 def test_the_component_holds_the_obstacle_nearest_to_the_gripper(
     objects: list[tuple[float, float, int]], axis: float
@@ -32,6 +34,7 @@ def test_of_obstacles_equally_near_the_one_nearest_to_the_centre_line_counts() -
     assert closest_component(local, np.array([0, 1, 2, 2]), 0.625).tolist() == [1]
 
 
+@often
 @given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1)), min_size=1, max_size=8))
 def test_the_rectangle_is_the_smallest_that_holds_all(points: list[tuple[float, float]]) -> None:
     rectangle = bounding_rectangle(np.array(points))

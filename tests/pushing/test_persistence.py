@@ -16,6 +16,7 @@ from phframe.pushing.persistence import persistent_radii, usable_radii, usable_t
 from phframe.pushing.situation import Pushing, Situation
 from phframe.runtime.scenes import find_scene, scene_names
 from phframe.testing import simulated_tasks
+from tests.pushing.parts import often
 
 deaths = st.lists(st.floats(0.0, 1.0), max_size=12).map(lambda values: np.array(sorted(values)))
 PUBLISHED = [name for name in scene_names() if name.startswith(("vieira", "papallas"))]
@@ -28,6 +29,7 @@ def seen(scene: Scene, **options: float) -> tuple[Pushing, Situation, Persistenc
     return pushing, situation, pushing.diagram(situation)
 
 
+@often
 @given(deaths, st.floats(0.0, 0.2))
 def test_a_death_persists_where_the_next_is_farther_than_the_margin(values: FloatArray, margin: float) -> None:
     persistent = persistent_radii(values, margin).tolist()
@@ -35,6 +37,7 @@ def test_a_death_persists_where_the_next_is_farther_than_the_margin(values: Floa
     assert persistent == wanted
 
 
+@often
 @given(deaths, st.floats(0.0, 0.2), st.floats(0.0, 1.0))
 def test_the_last_death_persists_and_usable_ones_exceed_the_threshold(
     values: FloatArray, margin: float, threshold: float

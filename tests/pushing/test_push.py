@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 
 from phframe.core import Contacts, Phase
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.push import push_action
+from tests.pushing.parts import often
 from tests.pushing.sweep_cases import Case, cases
 
 OPTIONS = PushingOptions(insert_speed=0.3, sweep_speed=0.1)
 
 
-@settings(max_examples=40, deadline=None)
+@often
 @given(cases())
 def test_in_across_and_out_at_one_yaw(case: Case) -> None:
     corridor = case.corridor
@@ -30,7 +31,7 @@ def test_in_across_and_out_at_one_yaw(case: Case) -> None:
             assert (rule.opening, rule.contacts) == (0.004, Contacts.OBJECTS)
 
 
-@settings(max_examples=40, deadline=None)
+@often
 @given(cases())
 def test_towards_the_north_the_fingertip_goes_north(case: Case) -> None:
     for push in case.pushes:

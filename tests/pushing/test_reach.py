@@ -7,17 +7,30 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from phframe.core import Action, Condition, Contacts, Corridor, Cylinder, FloatArray, Infeasible, Outline, Phase, Scene, State
+from phframe.core import (
+    Action,
+    Condition,
+    Contacts,
+    Corridor,
+    Cylinder,
+    FloatArray,
+    Infeasible,
+    Outline,
+    Phase,
+    Scene,
+    State,
+)
+from phframe.pushing.choice import Choice
 from phframe.pushing.corridor import find_corridor
 from phframe.pushing.options import PushingOptions
-from phframe.pushing.reach import FITS, NEIGHBOUR_CLEARANCE, YAW_STEPS, grasp_action
-from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, gap_to_walls, gaps_to_points, scene_of
+from phframe.pushing.reach import FITS, NEIGHBOUR_CLEARANCE, YAW_STEPS, Grasp, grasp_action
+from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, gap_to_walls, gaps_to_points, often, scene_of
 from tests.pushing.sweep_cases import millimetres
 
-ALONG = np.linspace(0.0, 1.0, 25)
+ALONG = np.linspace(0.0, 1.0, 15)
 
 
 @st.composite
@@ -40,8 +53,13 @@ def corridor_of(scene: Scene) -> Corridor:
     return corridor
 
 
+def planned(scene: Scene, rejected: tuple[Action, ...] = ()) -> Grasp | Infeasible:
+    return grasp_action(scene, scene.initial_state(), corridor_of(scene), ARM, PushingOptions(), rejected)
+
+
 def grasp(scene: Scene, state: State | None = None) -> Action | Infeasible:
-    return grasp_action(scene, state or scene.initial_state(), corridor_of(scene), ARM, PushingOptions())
+    found = grasp_action(scene, state or scene.initial_state(), corridor_of(scene), ARM, PushingOptions())
+    return found.action if isinstance(found, Grasp) else found
 
 
 def on_the_way_in(action: Action) -> FloatArray:
@@ -49,7 +67,7 @@ def on_the_way_in(action: Action) -> FloatArray:
     return np.asarray(poses[0] + ALONG[:, None] * (poses[1] - poses[0]))
 
 
-@settings(max_examples=80, deadline=None)
+@often
 @given(scenes())
 def test_the_open_arm_keeps_its_clearance_from_everything_on_the_way_in(scene: Scene) -> None:
     found = grasp(scene)
@@ -64,7 +82,7 @@ def test_the_open_arm_keeps_its_clearance_from_everything_on_the_way_in(scene: S
         assert gap_to_walls(outlines, pose) >= NEIGHBOUR_CLEARANCE - 1e-6
 
 
-@settings(max_examples=80, deadline=None)
+@often
 @given(scenes())
 def test_the_grasp_is_where_the_target_is_and_the_withdrawal_goes_straight_out(scene: Scene) -> None:
     found = grasp(scene)
@@ -94,7 +112,7 @@ def _corners(outlines: tuple, pose: FloatArray) -> list[float]:
     return [float(x) for outline in outlines for x in pose[0] + outline.vertices @ ahead]
 
 
-@settings(max_examples=80, deadline=None)
+@often
 @given(scenes())
 def test_it_is_refused_only_where_at_every_yaw_something_is_in_the_way(scene: Scene) -> None:
     found = grasp(scene)
@@ -115,7 +133,7 @@ def _touched(scene: Scene, deviation: float, past: float, clearance: float) -> s
     ahead, centers = np.array([math.cos(yaw), math.sin(yaw)]), scene.initial_state().positions
     tip = centers[0] + past * ahead
     length = (tip[0] + 0.05) / ahead[0]
-    ways = [np.array([*(tip - share * length * ahead), yaw]) for share in np.linspace(0.0, 1.0, 12)]
+    ways = [np.array([*(tip - share * length * ahead), yaw]) for share in np.linspace(0.0, 1.0, 7)]
     if min(gap_to_walls(outlines, pose) for pose in ways) < NEIGHBOUR_CLEARANCE - 1e-6:
         return None
     gaps = gaps_to_points([_drawn_back(outline, length) for outline in outlines], ways[0], centers) - scene.radii
@@ -126,6 +144,12 @@ def _drawn_back(outline: Outline, length: float) -> Outline:
     """What a part of the planar arm, a rectangle, passes over on a straight way in."""
     (x0, y0), (x1, y1) = outline.vertices.min(axis=0), outline.vertices.max(axis=0)
     return Outline(outline.part, np.array([[x0 - length, y0], [x1, y0], [x1, y1], [x0 - length, y1]]))
+
+
+def test_the_yaw_deviates_by_up_to_15_degrees_either_way() -> None:
+    assert YAW_STEPS[0] == 0.0
+    assert sorted(YAW_STEPS) == pytest.approx(sorted(-step for step in YAW_STEPS))
+    assert max(YAW_STEPS) == pytest.approx(math.radians(15.0))
 
 
 def test_a_neighbour_on_one_side_turns_the_gripper_away() -> None:
@@ -181,9 +205,32 @@ def test_a_wall_in_the_way_is_named() -> None:
 
 def test_only_the_target_may_be_touched_at_the_set_speed_and_the_fingers_close() -> None:
     scene = scene_of((0.4, 0.3))
-    found = grasp_action(scene, scene.initial_state(), corridor_of(scene), ARM, PushingOptions(reach_speed=0.125))
-    assert isinstance(found, Action)
+    grasp = grasp_action(scene, scene.initial_state(), corridor_of(scene), ARM, PushingOptions(reach_speed=0.125))
+    assert isinstance(grasp, Grasp)
+    found = grasp.action
     for phase in found.path.phases:
         assert (found.path.rules[phase].speed, found.path.rules[phase].contacts) == (0.125, Contacts.TARGET)
     openings = [found.path.rules[phase].opening for phase in found.path.phases]
     assert openings == pytest.approx([2 * (RADIUS + 0.008), 0.0, 0.0])
+
+
+@often
+@given(scenes())
+def test_a_grasp_that_is_turned_or_tight_says_so(scene: Scene) -> None:
+    found = planned(scene)
+    if isinstance(found, Grasp):
+        path = found.action.path
+        turned = abs(path.poses[0, 2] - corridor_of(scene).angle) > 1e-9
+        tight = path.rules[Phase.REACH].opening < 2 * (RADIUS + 0.008) - 1e-9
+        assert (Choice.GRASP_TURNED in found.choices, Choice.GRASP_TIGHT in found.choices) == (turned, tight)
+
+
+def test_rejected_grasps_are_not_proposed_until_none_is_left() -> None:
+    scene = scene_of((0.4, 0.3))
+    rejected: tuple[Action, ...] = ()
+    while isinstance(found := planned(scene, rejected), Grasp):
+        assert found.action not in rejected
+        rejected = (*rejected, found.action)
+    assert len(rejected) == len(FITS) * len(YAW_STEPS)
+    assert found.blockers == ()
+    assert "the arm cannot" in found.reason

@@ -9,12 +9,13 @@ from hypothesis import strategies as st
 
 from phframe.core import Outline
 from phframe.pushing.silhouette import Silhouette
-from tests.pushing.parts import ARM, boundary, highest, posed
+from tests.pushing.parts import ARM, boundary, highest, often, posed
 
 tilts = st.one_of(st.just(0.0), st.floats(0.02, 1.2), st.floats(-1.2, -0.02))
 TRIANGLE = Outline("triangle", np.array([[-0.1, -0.02], [0.0, 0.0], [-0.1, 0.05]]))
 
 
+@often
 @given(tilts)
 def test_the_front_is_the_foremost_point(tilt: float) -> None:
     front = Silhouette(ARM.closed, tilt).front
@@ -22,6 +23,7 @@ def test_the_front_is_the_foremost_point(tilt: float) -> None:
 
 
 @pytest.mark.parametrize("outlines", [ARM.closed, ARM.outlines(0.08), (TRIANGLE,)], ids=["closed", "open", "triangle"])
+@often
 @given(data=st.data(), tilt=tilts)
 def test_the_side_at_a_depth(outlines: tuple[Outline, ...], data: st.DataObject, tilt: float) -> None:
     silhouette = Silhouette(outlines, tilt)
@@ -42,6 +44,7 @@ def test_at_a_depth_where_a_wider_part_begins_it_counts() -> None:
     np.testing.assert_allclose(sides, [0.009, 0.009, 0.009, 0.049, 0.049, 0.06, 0.06, -np.inf])
 
 
+@often
 @given(tilts, st.floats(-0.5, 0.1), st.floats(0.0, 0.3))
 def test_the_widest_side_between_two_depths(tilt: float, nearest: float, extent: float) -> None:
     silhouette = Silhouette(ARM.closed, tilt)
@@ -54,6 +57,7 @@ def test_the_widest_side_between_two_depths(tilt: float, nearest: float, extent:
         assert widest == pytest.approx(sampled.max(), abs=1e-9)
 
 
+@often
 @given(tilts, st.floats(-0.4, 0.1))
 def test_north_and_south_are_mirror_images(tilt: float, depth: float) -> None:
     depths = np.array([depth])
