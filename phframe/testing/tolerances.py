@@ -16,6 +16,7 @@ class PhysicsTolerances:
         sunk: How far an object may be pressed into a wall, and the arm into an object (m).
         tracking: How far the fingertip may be from its trajectory where nothing is in the way (m).
         stopping: Relative error of an object's stopping distance.
+        stopping_slack: What a stopping distance may differ besides (m): softness of the contact it starts from.
         force: By which share the largest force may exceed the limit.
         preload: Force on a stalled arm that is told to stand still (N).
         phantom_force: Force on an arm that touches nothing (N).
@@ -30,6 +31,7 @@ class PhysicsTolerances:
     sunk: float
     tracking: float
     stopping: float
+    stopping_slack: float
     force: float
     preload: float
     phantom_force: float
@@ -45,6 +47,7 @@ PLANAR = PhysicsTolerances(
     sunk=2e-3,
     tracking=1e-3,
     stopping=0.10,
+    stopping_slack=0.0,
     force=0.10,
     preload=10.0,
     phantom_force=1e-9,
@@ -60,6 +63,7 @@ SPATIAL = PhysicsTolerances(
     sunk=4e-3,
     tracking=8e-3,
     stopping=0.10,
+    stopping_slack=1e-3,
     force=0.50,
     preload=10.0,
     phantom_force=1.0,

@@ -8,7 +8,16 @@ from typing import Any
 
 import pytest
 
-from phframe.core import GripperTrajectory, IncompatibleError, NotInstalledError
+from phframe.core import (
+    Cylinder,
+    GripperTrajectory,
+    IncompatibleError,
+    JointTrajectory,
+    NotInstalledError,
+    Scene,
+    SceneObject,
+    Shelf,
+)
 from phframe.registry import Kind, catalogue, create, load
 from phframe.testing import (
     ARM_CHECKS,
@@ -32,6 +41,9 @@ DETERMINISTIC = ("phia", "ooa")
 
 NEEDS = {"mujoco": pytest.mark.needs_mujoco, "pybullet": pytest.mark.needs_pybullet}
 """Backends that come with an extra."""
+
+
+SHELF_SCENE = Scene("shelf", Shelf(0.5, 0.6), (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
 
 
 def names(kind: Kind) -> list[str]:
@@ -60,10 +72,12 @@ def made(kind: Kind, name: str) -> Any:
 def physics(backend: str, arm: str) -> PhysicsUnderTest:
     loaded = load(Kind.BACKEND, backend)
     tolerances = PLANAR if loaded.executes is GripperTrajectory else SPATIAL
-    options = loaded.options_type()
+    options, model = loaded.options_type(), create(Kind.ARM, arm)
+    if loaded.executes is JointTrajectory:  # says in one line which arms can, where this one cannot
+        model.motion_planner(SHELF_SCENE, model.default_mount(SHELF_SCENE.shelf))
     return PhysicsUnderTest(
-        lambda scene, model, mount: loaded(scene, model, mount, options),
-        create(Kind.ARM, arm),
+        lambda scene, carrier, mount: loaded(scene, carrier, mount, options),
+        model,
         tolerances,
         name=backend,
     )

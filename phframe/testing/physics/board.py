@@ -66,7 +66,7 @@ def sliding_objects_stop_where_friction_says(subject: PhysicsUnderTest) -> Fault
                 yield from expect(enough, f"an object let go at about {speed:g} m/s", f"at {let_go:.3f} m/s")
                 theory = let_go**2 / (2.0 * friction * GRAVITY)
                 found = f"{slid:.4f} m at mu = {friction:g}, let go at {let_go:.3f} m/s"
-                close = abs(slid - theory) <= subject.tolerances.stopping * theory + subject.tolerances.untouched
+                close = abs(slid - theory) <= subject.tolerances.stopping * theory + subject.tolerances.stopping_slack
                 yield from expect(close, f"a stop after {theory:.4f} m", found)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -54,7 +55,7 @@ class Stand:
         Raises:
             NotApplicableError: If the backend executes joints and the arm cannot follow the path.
         """
-        opening = self.arm.shape.min_opening
+        path, opening = self._closed_as_it_closes(path), self.arm.shape.min_opening
         if state.arm is None:
             opening = path.rules[path.phases[0]].opening
         else:
@@ -64,6 +65,12 @@ class Stand:
             opening = state.arm.commanded_opening
         timed = time_path(path, opening, self.arm.force_limit if force_limit is None else force_limit)
         return self.lifted(state, timed)
+
+    def _closed_as_it_closes(self, path: GripperPath) -> GripperPath:
+        """A path for fingers that close all the way, for a gripper whose do not."""
+        least = self.arm.shape.min_opening
+        rules = {phase: replace(found, opening=max(found.opening, least)) for phase, found in path.rules.items()}
+        return replace(path, rules=rules)
 
     def lifted(self, state: State, trajectory: GripperTrajectory) -> Trajectory:
         """What the backend executes for a gripper trajectory that begins in a state.
