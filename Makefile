@@ -3,6 +3,7 @@
 
 # The extras (see pyproject.toml) that each job is set up with; `make test TEST_EXTRAS=dev` tests without any.
 TEST_EXTRAS ?= dev,rerun
+TEST_3D_EXTRAS ?= dev,mujoco,baxter
 DEMO_EXTRAS ?= rerun
 SCENE ?= vieira/basic
 PYTEST_FLAGS ?= --numprocesses=auto --benchmark-disable
@@ -17,17 +18,21 @@ unexport PYTHONPATH PYTHONHOME PIP_USER PIP_TARGET PIP_PREFIX PIP_REQUIRE_VIRTUA
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test lint bench clean interpreter FORCE
+.PHONY: help demo test test-3d lint bench clean interpreter FORCE
 
 help: ## say what can be made (the default)
 	@echo 'usage: make TARGET [PYTHON=/path/to/python3.11]'
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  \1	\2/p' Makefile
+	@sed -n 's/^\([a-z0-9-]*\):.*## \(.*\)/  \1	\2/p' Makefile
 
 demo: $(call stamp,$(DEMO_EXTRAS)) ## solve a shelf scene and record it for the Rerun viewer
 	@$(VENV)/bin/phframe solve $(SCENE) --rerun
 
 test: $(call stamp,$(TEST_EXTRAS)) ## run the tests
 	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS)
+
+test-3d: $(call stamp,$(TEST_3D_EXTRAS)) ## run the tests of the 3D engine and of Baxter
+	@$(VENV)/bin/python -c "import mujoco, pinocchio"
+	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS) -m "needs_mujoco or needs_baxter"
 
 lint: $(call stamp,$(TEST_EXTRAS)) ## check style, types, layers and spelling
 	@$(VENV)/bin/ruff check
