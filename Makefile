@@ -6,6 +6,7 @@ TEST_EXTRAS ?= dev,rerun
 TEST_3D_EXTRAS ?= dev,mujoco,baxter
 DEMO_EXTRAS ?= rerun
 SCENE ?= vieira/basic
+3D := needs_mujoco or needs_pybullet or needs_ompl or needs_baxter
 PYTEST_FLAGS ?= --numprocesses=auto --benchmark-disable
 
 override VENV := .venv
@@ -28,11 +29,11 @@ demo: $(call stamp,$(DEMO_EXTRAS)) ## solve a shelf scene and record it for the 
 	@$(VENV)/bin/phframe solve $(SCENE) --rerun
 
 test: $(call stamp,$(TEST_EXTRAS)) ## run the tests
-	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS)
+	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS) -m 'not ($(3D))'
 
 test-3d: $(call stamp,$(TEST_3D_EXTRAS)) ## run the tests of the 3D engine and of Baxter
 	@$(VENV)/bin/python -c "import mujoco, pinocchio"
-	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS) -m "needs_mujoco or needs_baxter"
+	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS) -m '$(3D)'
 
 lint: $(call stamp,$(TEST_EXTRAS)) ## check style, types, layers and spelling
 	@$(VENV)/bin/ruff check

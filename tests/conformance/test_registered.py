@@ -39,8 +39,13 @@ from phframe.testing import (
 DETERMINISTIC = ("phia", "ooa")
 """Planners that promise that the order of objects does not matter."""
 
-NEEDS = {"mujoco": pytest.mark.needs_mujoco, "pybullet": pytest.mark.needs_pybullet}
-"""Backends that come with an extra."""
+NEEDS = {
+    "mujoco": pytest.mark.needs_mujoco,
+    "pybullet": pytest.mark.needs_pybullet,
+    "baxter": pytest.mark.needs_baxter,
+    "articulated": pytest.mark.needs_baxter,
+}
+"""Backends and arms that come with an extra."""
 
 
 SHELF_SCENE = Scene("shelf", Shelf(0.5, 0.6), (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
@@ -87,7 +92,7 @@ def physics(backend: str, arm: str) -> PhysicsUnderTest:
 @pytest.mark.parametrize(
     ("backend", "arm"),
     [
-        pytest.param(backend, arm, marks=NEEDS.get(backend, ()))
+        pytest.param(backend, arm, marks=[NEEDS[name] for name in (backend, arm) if name in NEEDS])
         for backend, arm in product(names(Kind.BACKEND), names(Kind.ARM))
     ],
 )
@@ -100,7 +105,7 @@ def test_physics(backend: str, arm: str, check: Check[PhysicsUnderTest]) -> None
 
 
 @each_check(ARM_CHECKS)
-@pytest.mark.parametrize("arm", names(Kind.ARM))
+@pytest.mark.parametrize("arm", [pytest.param(arm, marks=NEEDS.get(arm, ())) for arm in names(Kind.ARM)])
 def test_arm(arm: str, check: Check[ArmUnderTest]) -> None:
     run(check, ArmUnderTest(made(Kind.ARM, arm)))
 
