@@ -23,6 +23,7 @@ from phframe.core import (
     condition_of,
     inverse,
     planar_pose,
+    refuse_foreign,
     yaw_of,
 )
 
@@ -96,7 +97,7 @@ def restore(world: World, state: State) -> None:
     Raises:
         InputError: If the state is not one of this scene and this arm.
     """
-    _refuse_stranger(world.model, state)
+    refuse_foreign(world.model.scene, world.model.arm.shape, state)
     joints = _joints_of(world.model, state.arm)
     model, data = world.model, world.data
     mujoco.mj_resetData(model.mj, data)
@@ -127,24 +128,9 @@ def hold(world: World, row: int | None) -> None:
     world.held = row
 
 
-def _refuse_stranger(model: Model, state: State) -> None:
-    scene = model.scene
-    if len(state.poses) != len(scene.objects):
-        raise InputError(
-            f"a state of {len(state.poses)} objects is not one of {scene.name!r}, which has {len(scene.objects)}"
-        )
-    if not np.isfinite(state.poses).all():
-        raise InputError("a state holds poses that are not finite numbers")
-    if state.held is not None:
-        scene.index(state.held)
-
-
 def _joints_of(model: Model, arm: ArmState | None) -> FloatArray:
     if arm is None:
         return np.asarray(model.arm.home)
-    numbers = (*arm.gripper, arm.opening, arm.commanded_opening, *(() if arm.joints is None else arm.joints))
-    if not np.isfinite(numbers).all():
-        raise InputError("a state holds an arm whose pose, opening or joints are not finite numbers")
     if arm.joints is not None:
         if arm.joints.shape != (model.dof,):
             raise InputError(f"a state's arm has {len(arm.joints)} joints, this one {model.dof}")

@@ -23,7 +23,6 @@ from phframe.core import (
     ArmError,
     FloatArray,
     GripperTrajectory,
-    InputError,
     Motion,
     Options,
     Physics,
@@ -32,6 +31,7 @@ from phframe.core import (
     Stop,
     Trajectory,
     Watch,
+    refuse_foreign,
 )
 
 
@@ -68,16 +68,7 @@ class PymunkPhysics(Physics[PymunkOptions]):
 
     def restore(self, state: State) -> State:
         """Build a new space that holds ``state``."""
-        if state.poses.shape[0] != len(self.scene.objects):
-            raise InputError(
-                f"a state of {len(state.poses)} objects is not one of {self.scene.name!r}, which has {len(self.scene.objects)}"
-            )
-        if not (np.isfinite(state.poses).all() and (state.arm is None or np.isfinite(state.arm.gripper).all())):
-            raise InputError("a state holds poses that are not finite numbers")
-        if state.held is not None and not state.on_board[self.scene.index(state.held)]:
-            raise InputError(f"{state.held!r} cannot be held, since it has spilled")
-        if state.arm is not None:
-            self.arm.shape.outlines(state.arm.opening)  # refuses an opening that the gripper cannot have
+        refuse_foreign(self.scene, self.arm.shape, state)
         self._world = world = build_world(self.model, state)
         if state.arm is not None:
             place_arm(world, state.arm.gripper)

@@ -28,6 +28,7 @@ from phframe.core.planner import Planner
 from phframe.core.pose import compose, inverse, planar_pose, rotate, tilt_of, turn, yaw_of
 from phframe.core.scene import Cylinder, Mount, Scene, SceneObject, Shape, Shelf, coulomb_with_board
 from phframe.core.state import ArmState, Condition, State
+from phframe.core.state_check import refuse_foreign
 from phframe.core.suite import SceneSuite
 from phframe.core.task import Budget, Task
 from phframe.core.topology import PersistenceDiagram, TopologyEngine
@@ -109,6 +110,7 @@ __all__ = [
     "coulomb_with_board",
     "inverse",
     "planar_pose",
+    "refuse_foreign",
     "rotate",
     "starting_from",
     "tilt_of",
