@@ -9,7 +9,6 @@ from phframe.core.errors import InputError
 from phframe.core.scene import Scene
 from phframe.core.state import ArmState, State
 
-
 GIVE = 5e-3
 """Fingers that are driven by forces overshoot their limits by less than this (m)."""
 
