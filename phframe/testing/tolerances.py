@@ -18,6 +18,8 @@ class PhysicsTolerances:
         stopping: Relative error of an object's stopping distance.
         stopping_slack: What a stopping distance may differ besides (m): softness of the contact it starts from.
         force: By which share the largest force may exceed the limit.
+        load_speed: How fast a load is pushed to see whether it stalls the arm (m/s); slowly where the arm has a mass of its
+            own, since what its momentum does to what it hits is not what it presses with.
         preload: Force on a stalled arm that is told to stand still (N).
         phantom_force: Force on an arm that touches nothing (N).
         slipped: How far an object may slip in the hand on its way out (m).
@@ -33,6 +35,7 @@ class PhysicsTolerances:
     stopping: float
     stopping_slack: float
     force: float
+    load_speed: float
     preload: float
     phantom_force: float
     slipped: float
@@ -49,6 +52,7 @@ PLANAR = PhysicsTolerances(
     stopping=0.10,
     stopping_slack=0.0,
     force=0.10,
+    load_speed=0.25,
     preload=10.0,
     phantom_force=1e-9,
     slipped=2e-3,
@@ -65,6 +69,7 @@ SPATIAL = PhysicsTolerances(
     stopping=0.10,
     stopping_slack=1e-3,
     force=0.50,
+    load_speed=0.1,
     preload=10.0,
     phantom_force=1.0,
     slipped=1e-2,

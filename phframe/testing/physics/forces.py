@@ -107,8 +107,8 @@ def a_load_too_heavy_stalls_the_arm(subject: PhysicsUnderTest) -> Faults:
     """Trajectory.force_limit: net contact force (N) above which the arm stalls; what needs less is pushed."""
     for mass, stalls in ((8.0, True), (2.0, False)):  # friction 0.5: 39.2 N and 9.8 N
         with on_stand(subject, scene_of(cylinder("load", 0.2, MIDDLE, mass=mass, friction=0.5))) as stand:
-            # Slowly: what an arm's momentum does to what it hits is not what it presses with.
-            made = stand.run(stand.start, drive_in(0.35, speed=0.1), force_limit=25.0)
+            way = drive_in(0.35, speed=subject.tolerances.load_speed)
+            made = stand.run(stand.start, way, force_limit=25.0)
             moved = float(made.state.displacement(stand.start)[0])
             yield from expect_equal(made.motion.stalled, stalls, f"a stall at {mass:g} kg with a limit of 25 N")
             far = moved < 0.02 if stalls else moved > 0.15
