@@ -51,7 +51,8 @@ class Drive:
         self._world, self._trajectory, self._step = world, trajectory, step
         self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
         self._ticks = np.rint(trajectory.times / step).astype(int).tolist()
-        self._impulses: deque[float] = deque([0.0], max(1, round(FORCE_WINDOW / step)))
+        window = max(1, round(FORCE_WINDOW / step))
+        self._impulses: deque[float] = deque([0.0] * window, window)
         self._period = None if watch is None else max(1, round(watch.period / step))
         self._full_impulse = trajectory.force_limit * step * SATURATED
         self.lag = self.force = 0.0
@@ -109,6 +110,7 @@ class Drive:
         held = None if world.held is None else np.array(world.items[world.held].body.position)
         begin = world.tick
         free = math.floor(free_share(world, start, target) * (end - begin))
+        self._impulses.extend([0.0] * min(free, len(self._impulses)))
         for world.tick in self._stops(begin, begin + free):
             way = (target - start) * ((world.tick - begin) / (end - begin))
             place_arm(world, start + way)
@@ -165,12 +167,14 @@ class Drive:
         """Step until a number of steps or an end, and keep the mean force of the last 20 ms; the hot path."""
         world, step, dt, drive = self._world, self._world.space.step, self._step, self._world.arm.drive
         impulses, touched, begin = self._impulses, len(world.touched), world.tick
+        total, window = sum(impulses), len(impulses)
         for world.tick in range(begin + 1, end + 1):
             step(dt)
             impulse = drive.impulse
-            if impulse > 0.0 or impulses[-1] > 0.0:
-                impulses.append(impulse)
-                self._weigh(sum(impulses) / (impulses.maxlen or 1))
+            total += impulse - impulses[0]
+            impulses.append(impulse)
+            if impulse > 0.0:
+                self._weigh(total / window)
             if self._period is not None:
                 self._look()
             if len(world.touched) > touched and self._stop is not None:
