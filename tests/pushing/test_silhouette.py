@@ -28,13 +28,14 @@ def test_the_front_is_the_foremost_point(tilt: float) -> None:
 def test_the_side_at_a_depth(outlines: tuple[Outline, ...], data: st.DataObject, tilt: float) -> None:
     silhouette = Silhouette(outlines, tilt)
     depths = np.array(data.draw(st.lists(st.floats(-0.6, 0.2), min_size=1, max_size=5)))
-    corners = np.concatenate([posed(outline.vertices, 0, 0, tilt)[:, 0] for outline in outlines])
+    corners = np.concatenate([posed(outline.vertices, 0, 0, tilt) for outline in outlines])
+    foremost = corners[corners[:, 0] >= silhouette.front - 1e-12, 1]
     for direction in (1, -1):
         for depth, side in zip(depths, silhouette.side(depths, direction), strict=True):
-            x = min(depth, silhouette.front - 1e-9)
-            if np.abs(corners - x).min() < 1e-8 and depth < silhouette.front:
-                continue  # on a corner, where the widest may begin or end
-            assert side == pytest.approx(highest(outlines, tilt, x, direction), abs=1e-6)
+            if depth >= silhouette.front:  # what its front reaches: the corners there, however steep the edges behind
+                assert side == pytest.approx((direction * foremost).max(), abs=1e-6)
+            elif np.abs(corners[:, 0] - depth).min() >= 1e-8:  # not on a corner, where the widest may begin or end
+                assert side == pytest.approx(highest(outlines, tilt, depth, direction), abs=1e-6)
 
 
 def test_at_a_depth_where_a_wider_part_begins_it_counts() -> None:
