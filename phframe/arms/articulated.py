@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from phframe.arms.articulated_options import ArticulatedOptions
 from phframe.arms.description import ArmDescription, Section, TipFrame, read_description
 from phframe.arms.outlines import gripper_outlines
 from phframe.arms.pinocchio_ import Kinematics
@@ -24,9 +25,10 @@ from phframe.core import (
     Fingers,
     FloatArray,
     Joint,
+    MotionPlanner,
     Mount,
-    Options,
     Outline,
+    Scene,
     Shelf,
     turn,
 )
@@ -37,7 +39,7 @@ FRONT = 1e-3
 
 EXAMPLE = Path(__file__).parent / "example" / "arm.yaml"
 
-OptionsT = TypeVar("OptionsT", bound=Options)
+OptionsT = TypeVar("OptionsT", bound=ArticulatedOptions)
 
 
 class ArticulatedArm(ArmModel[OptionsT]):
@@ -63,14 +65,14 @@ class ArticulatedArm(ArmModel[OptionsT]):
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
         """As the URDF has them."""
-        return tuple(_joint(self._robot, name) for name in self.description.joints)
+        return tuple(_joint(self.robot, name) for name in self.description.joints)
 
     @cached_property
     def fingers(self) -> Fingers:
         """As the URDF has them."""
-        left, right = (self._robot.joint(name) for name in self.description.fingers)
+        left, right = (self.robot.joint(name) for name in self.description.fingers)
         names = self.description.fingers
-        return Fingers((_joint(self._robot, names[0]), _joint(self._robot, names[1])), (left.child, right.child))
+        return Fingers((_joint(self.robot, names[0]), _joint(self.robot, names[1])), (left.child, right.child))
 
     @property
     def force_limit(self) -> float:
@@ -85,7 +87,7 @@ class ArticulatedArm(ArmModel[OptionsT]):
     @cached_property
     def shape(self) -> ArmShape:
         """The covers that move with the fingertip, and what is described of the arm behind."""
-        gripper = gripper_outlines(self._robot, self.tip_link, self.description.fingers)
+        gripper = gripper_outlines(self.robot, self.tip_link, self.description.fingers)
         behind = (outline for section in self.description.behind for outline in _section(section))
         closed = (*gripper, *behind)
         first = [outline for outline in gripper if outline.vertices[:, 0].max() > -FRONT]
@@ -118,6 +120,17 @@ class ArticulatedArm(ArmModel[OptionsT]):
         x, y = -turn(-stand.yaw) @ np.array(stand.at[:2])
         return Mount(float(x), shelf.width / 2.0 + float(y), -stand.at[2], 0.0 - stand.yaw)
 
+    def motion_planner(self, scene: Scene, mount: Mount) -> MotionPlanner[Any]:
+        """Follows paths in the shelf, and plans free ways with OMPL.
+
+        Raises:
+            UnknownNameError: If there is no such planner.
+            NotInstalledError: If OMPL is not installed.
+        """
+        from phframe.arms.articulated_motion import ArticulatedMotionPlanner
+
+        return ArticulatedMotionPlanner(scene, self, mount, self.options)
+
     @cached_property
     def kinematics(self) -> Kinematics:
         """Of the chain from the base to the fingertip."""
@@ -143,7 +156,8 @@ class ArticulatedArm(ArmModel[OptionsT]):
         return description, text
 
     @cached_property
-    def _robot(self) -> Robot:
+    def robot(self) -> Robot:
+        """The URDF, read."""
         return read_robot(self.urdf())
 
     def _joint_values(self, q: ArrayLike) -> FloatArray:
@@ -154,8 +168,8 @@ class ArticulatedArm(ArmModel[OptionsT]):
         return values
 
 
-class DescribedArmOptions(Options):
-    """Where the description is.
+class DescribedArmOptions(ArticulatedOptions):
+    """Where the description is, and how the arm moves.
 
     Attributes:
         description: A YAML file; it names the URDF's file. By default an example, to copy and to try.

@@ -84,6 +84,7 @@ class ArmDescription(_Part):
         behind: The arm behind what the gripper's link carries.
         overlapping: Pairs of links, besides those joined to one another, whose covers may overlap: whoever looks for
             collisions of the arm with itself passes them over.
+        postures: Joint values that a motion planner begins from, besides home, where it looks for a posture.
     """
 
     phframe: Literal[1] = 1
@@ -98,6 +99,7 @@ class ArmDescription(_Part):
     force_limit: Annotated[float, Field(gt=0.0)] = 60.0
     behind: tuple[Section, ...] = ()
     overlapping: tuple[tuple[str, str], ...] = ()
+    postures: tuple[tuple[float, ...], ...] = ()
 
 
 def read_description(path: Path) -> tuple[ArmDescription, str]:

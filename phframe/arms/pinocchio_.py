@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import pinocchio
@@ -33,6 +34,11 @@ class Kinematics:
         joints: Names of the joints in the chain, from the base to the tip.
         tip: Name of the link that is moved.
         home: Joint values ``(dof,)`` where searching begins when no seed is given.
+
+    Attributes:
+        dof: Number of joints.
+        lower: Their limits ``(dof,)`` (rad or m).
+        upper: Their limits ``(dof,)``.
     """
 
     def __init__(self, urdf: str, joints: Sequence[str], tip: str, home: FloatArray) -> None:
@@ -42,9 +48,10 @@ class Kinematics:
         self._numbers = [self._model.getJointId(name) for name in joints]
         self._rows = np.array([self._model.idx_qs[number] for number in self._numbers])
         self._data, self._tip, self._home = self._model.createData(), self._model.getFrameId(tip), home
-        self._lower = self._model.lowerPositionLimit[self._rows] + INSET
-        self._upper = self._model.upperPositionLimit[self._rows] - INSET
+        self.lower = self._model.lowerPositionLimit[self._rows] + INSET
+        self.upper = self._model.upperPositionLimit[self._rows] - INSET
         self._root, self._longest = self._reach()
+        self.dof = len(joints)
 
     def forward(self, q: FloatArray) -> FloatArray:
         """Pose ``(7,)`` of the tip, scalar first, in the frame of the robot's root, for joint values ``(dof,)``."""
@@ -69,10 +76,10 @@ class Kinematics:
         """Joint values ``(dof,)`` for a pose ``(7,)``, going downhill from ``start`` alone, or None."""
         x, y, z, scalar, i, j, k = pose
         target = pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
-        q = np.clip(start, self._lower, self._upper)
+        q = np.clip(start, self.lower, self.upper)
         least, since = np.inf, 0
         for _ in range(STEPS):
-            error, jacobian = self._error(q, target)
+            error, jacobian = self.error(q, target)
             left = float(np.sqrt(error @ error))
             if left < EXACT:
                 return q
@@ -81,6 +88,17 @@ class Kinematics:
                 return None
             q = self._stepped(q, error, jacobian)
         return None
+
+    def places(self, q: FloatArray, direction: FloatArray) -> list[Any]:
+        """Where the frames of the chain's joints are, and how they move as the joints move in a direction ``(dof,)``.
+
+        Returns:
+            From the base to the tip: rotation ``(3, 3)``, position ``(3,)`` (m), turning ``(3,)`` and velocity ``(3,)``
+            per unit of the direction, all in the frame of the root.
+        """
+        model, data = self._model, self._data
+        pinocchio.forwardKinematics(model, data, self._all(q), self._all(direction))
+        return [_moving(data.oMi[number], data.v[number]) for number in self._numbers]
 
     def self_motion(self, q: FloatArray) -> FloatArray:
         """The unit direction ``(dof,)`` in which the joints can move and the tip stays, best so where there are several.
@@ -96,14 +114,14 @@ class Kinematics:
         """The first joint's place ``(3,)`` and a distance from it (m) that the tip cannot exceed."""
         frame = self._model.frames[self._tip]
         steps = [self._model.jointPlacements[number].translation for number in range(2, self._model.njoints)]
-        slides = np.abs([self._lower, self._upper]).max(axis=0)[
+        slides = np.abs([self.lower, self.upper]).max(axis=0)[
             [not self._model.joints[number].shortname().startswith("JointModelR") for number in self._numbers]
         ]
         length = sum(float(np.linalg.norm(step)) for step in (*steps, frame.placement.translation))
         return self._model.jointPlacements[1].translation, length + float(slides.sum())
 
-    def _error(self, q: FloatArray, target: pinocchio.SE3) -> tuple[FloatArray, FloatArray]:
-        """The twist ``(6,)`` that is left to the target, seen from the tip, and the tip's Jacobian ``(6, dof)``."""
+    def error(self, q: FloatArray, target: pinocchio.SE3) -> tuple[FloatArray, FloatArray]:
+        """The twist ``(6,)`` that is left to a target, seen from the tip, and the tip's Jacobian ``(6, dof)``."""
         model, data, tip = self._model, self._data, self._tip
         pinocchio.computeJointJacobians(model, data, self._all(q))
         left = pinocchio.updateFramePlacement(model, data, tip).actInv(target)
@@ -117,13 +135,11 @@ class Kinematics:
         for _ in range(len(q)):
             step = _least_squares(jacobian, error, free, damping)
             step *= min(1.0, LONGEST_STEP / max(float(np.abs(step).max()), 1e-12))
-            beyond = free & (
-                (q + step > self._upper) & (q >= self._upper) | (q + step < self._lower) & (q <= self._lower)
-            )
+            beyond = free & ((q + step > self.upper) & (q >= self.upper) | (q + step < self.lower) & (q <= self.lower))
             if not beyond.any():
                 break
             free &= ~beyond
-        return np.clip(q + step, self._lower, self._upper)
+        return np.clip(q + step, self.lower, self.upper)
 
     def _all(self, q: FloatArray) -> FloatArray:
         """The chain's joint values in the model's order."""
@@ -139,7 +155,12 @@ class Kinematics:
     @cached_property
     def _spread(self) -> FloatArray:
         """Joint values ``(RESTARTS, dof)`` all over the limits, the same ones every time."""
-        return np.random.default_rng(0).uniform(self._lower, self._upper, (RESTARTS, len(self._lower)))
+        return np.random.default_rng(0).uniform(self.lower, self.upper, (RESTARTS, len(self.lower)))
+
+
+def _moving(place: pinocchio.SE3, velocity: pinocchio.Motion) -> tuple[FloatArray, ...]:
+    axes = place.rotation
+    return axes, place.translation, axes @ velocity.angular, axes @ velocity.linear
 
 
 def _least_squares(jacobian: FloatArray, error: FloatArray, free: NDArray[np.bool_], damping: float) -> FloatArray:

@@ -20,7 +20,9 @@ class ExecutionWorld(World):
         return self.follow(trajectory)
 
     def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
-        """As every world, once the arm is known to reach each of the path's poses."""
+        """As every world; where no motion planner says so, once the arm is known to reach each of the path's poses."""
+        if self.plans_motion:
+            return super().lift(state, action)
         return self._refuse_pose(action) or super().lift(state, action)
 
     def _refuse_pose(self, action: Action) -> Unreachable | None:

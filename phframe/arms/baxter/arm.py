@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from phframe.arms.articulated import ArticulatedArm
+from phframe.arms.articulated_options import ArticulatedOptions
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import SIDES, Side, arm_joints, baxter_urdf, fingers, mirrored
 from phframe.arms.description import ArmDescription, Section, Stand
-from phframe.core import Options
 
 
-class BaxterOptions(Options):
-    """Which arm works.
+class BaxterOptions(ArticulatedOptions):
+    """Which arm works, and how it moves.
 
     Attributes:
         side: Left or right; the other one is parked outwards. The shelf stands before the one that works.

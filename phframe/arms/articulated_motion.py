@@ -1,0 +1,189 @@
+"""Lifts paths of the gripper to the joints of an arm: followed in the shelf, on free ways outside of it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from itertools import chain
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from phframe.arms.articulated_options import ArticulatedOptions
+from phframe.arms.coal_ import CollisionModel
+from phframe.arms.follow import Follower
+from phframe.arms.joint_path import joint_path, require_planner
+from phframe.arms.posture import Posture
+from phframe.arms.route import Route, Router
+from phframe.arms.schedule import Scheduler
+from phframe.arms.skin import Skin
+from phframe.arms.stretch import free_way, legs_of
+from phframe.arms.track import Tracker
+from phframe.arms.waypoints import waypoints
+from phframe.core import (
+    FloatArray,
+    GripperPath,
+    JointTrajectory,
+    MotionPlanner,
+    Mount,
+    Scene,
+    State,
+    Unreachable,
+    compose,
+    inverse,
+    planar_pose,
+    yaw_of,
+)
+
+if TYPE_CHECKING:
+    from phframe.arms.articulated import ArticulatedArm
+
+SAME_POSITION, SAME_YAW = 5e-3, 0.03
+"""A path that begins no farther than this (m, rad) from where the gripper is goes on from there."""
+ALIKE = 0.2
+"""Postures that differ by less than this in every joint (rad or m) are tried once."""
+IMPROVEMENTS = 20
+"""Of a posture before it is tried."""
+DESCENTS = 15
+"""Random starting points for every posture that may be tried."""
+WIDE = 0.01
+"""A route on which the arm is wider than described by no more than this (m) is taken at once."""
+RESOLUTION = 0.03
+"""Most that a joint moves between two configurations of a free way that are looked at (rad or m)."""
+
+UNAPPROACHABLE = Unreachable(0.0, "no free way leads to where the path goes in", 0)
+
+
+class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
+    """Follows paths with any arm that is given by a URDF and a description.
+
+    In the shelf, joints follow the path at constant height, continuously and in a posture that is as narrow behind the
+    gripper as can be; the gripper turns away from the path's yaw only where the fingers are less than 5 cm in the shelf.
+    From where the arm is to where its way in begins, OMPL plans.
+
+    Raises:
+        UnknownNameError: If there is no such planner.
+        NotInstalledError: If OMPL is not installed.
+    """
+
+    options_type = ArticulatedOptions
+
+    def __init__(self, scene: Scene, arm: ArticulatedArm, mount: Mount, options: ArticulatedOptions) -> None:
+        super().__init__(scene, arm, mount, options)
+        require_planner(options.motion_planner)
+        self._described, self._kinematics = arm.description, arm.kinematics
+        skin = Skin(self._kinematics, arm.robot, self._described.joints, arm.tip_link, mount, scene.shelf.depth)
+        self._posture = Posture(self._kinematics, skin, self._described.behind, scene.shelf)
+        self._follower = Follower(self._kinematics, self._posture)
+        opened = {joint.name: joint.upper for joint in arm.fingers.joints}
+        names, apart = self._described.joints, self._described.overlapping
+        self._collisions = CollisionModel(arm.urdf(), names, opened, apart, scene, mount)
+        self._tracker = Tracker(self._follower, self._collisions, mount, arm.shape.height, names)
+        self._scheduler = Scheduler(arm, mount, options)
+
+    def plan(
+        self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator
+    ) -> JointTrajectory | Unreachable:
+        """Lift a path.
+
+        Postures are tried until one is narrow enough, the least wide of them is taken after so many attempts.
+        """
+        self._collisions.place(state)
+        begin, opening = self._where(state)
+        router = Router(path, waypoints(path), self.scene, self._tracker, self._collisions)
+        if self._goes_on(begin, path):
+            route = router.onwards(begin)
+            if isinstance(route, Unreachable):
+                return route
+            return self._scheduler.trajectory([*legs_of(route, path, opening)])
+        return self._approached(path, router, begin, opening, attempts, time.monotonic() + seconds, rng)
+
+    def _where(self, state: State) -> tuple[FloatArray, float]:
+        """Joint values ``(dof,)`` and commanded opening (m)."""
+        if state.arm is None:
+            return self.arm.home, self.arm.shape.min_opening
+        joints = state.arm.joints
+        if joints is None:
+            found = self.arm.inverse(self._in_base(state.arm.gripper), self.arm.home)
+            joints = self.arm.home if found is None else found
+        return joints, state.arm.commanded_opening
+
+    def _goes_on(self, begin: FloatArray, path: GripperPath) -> bool:
+        """Whether a path begins where the gripper is."""
+        pose = compose(self.mount.pose, self.arm.forward(begin))
+        x, y, yaw = path.poses[0].tolist()
+        near = np.hypot(pose[0] - x, pose[1] - y) < SAME_POSITION
+        return bool(near and abs(np.remainder(yaw_of(pose) - yaw + np.pi, 2.0 * np.pi) - np.pi) < SAME_YAW)
+
+    def _approached(
+        self,
+        path: GripperPath,
+        router: Router,
+        begin: FloatArray,
+        opening: float,
+        attempts: int,
+        until: float,
+        rng: np.random.Generator,
+    ) -> JointTrajectory | Unreachable:
+        """The way to where a path's route begins, and the route: the first that is narrow, else the narrowest."""
+        best: tuple[float, FloatArray, Route] | None = None
+        farthest = Unreachable(0.0, "no posture has the gripper where the path goes in", 0)
+        for number, posture in enumerate(self._postures(router.entrance, begin, attempts, rng)):
+            route = router.through(posture)
+            if isinstance(route, Unreachable):
+                farthest = max(farthest, route, key=lambda end: end.where)
+            elif best is None or self._excess(route) < best[0]:
+                way = self._free_way(begin, route.joints[0], rng)
+                if way is None:
+                    farthest = max(farthest, UNAPPROACHABLE, key=lambda end: end.where)
+                else:
+                    best = self._excess(route), way, route
+            narrow = best is not None and best[0] <= WIDE
+            if narrow or number + 1 >= attempts or time.monotonic() > until:
+                break
+        if best is None:
+            return farthest
+        first = path.rules[path.phases[0]].opening
+        return self._scheduler.trajectory([*free_way(best[1], opening, first), *legs_of(best[2], path, first)])
+
+    def _postures(
+        self, pose: FloatArray, begin: FloatArray, attempts: int, rng: np.random.Generator
+    ) -> Iterator[FloatArray]:
+        """Different joint values ``(dof,)`` for a gripper pose ``(3,)``: from where the arm is, from described ones, by chance."""
+        lower, upper = self._kinematics.lower, self._kinematics.upper
+        described = np.array([self.arm.home, *self._described.postures])
+        by_chance = (rng.uniform(lower, upper) for _ in range(DESCENTS * attempts))
+        found: list[FloatArray] = []
+        for seed in chain([begin], described, by_chance):
+            q = self._kinematics.descend(self._in_base(pose), seed)
+            if q is None or any(float(np.abs(q - other).max()) < ALIKE for other in found):
+                continue
+            found.append(q)
+            improved = self._follower.improved(q, self._tracker.target(pose), pose, IMPROVEMENTS)
+            if improved is not None:
+                yield improved
+
+    def _free_way(self, begin: FloatArray, end: FloatArray, rng: np.random.Generator) -> FloatArray | None:
+        """Corners ``(k, dof)`` of a way on which nothing is touched but what is touched at its begin."""
+        self._collisions.allow([])
+        with self._collisions.tolerating(begin):
+            return joint_path(
+                begin,
+                end[None],
+                lower=self._kinematics.lower,
+                upper=self._kinematics.upper,
+                valid=self._collisions.is_free,
+                planner=self.options.motion_planner,
+                resolution=RESOLUTION,
+                iterations=self.options.search,
+                rng=rng,
+            )
+
+    def _excess(self, route: Route) -> float:
+        """The most by which the arm is wider on a route than it is described (m)."""
+        every = zip(route.joints[::4], route.poses[::4], strict=True)
+        return max(self._posture.excess(q, pose) for q, pose in every)
+
+    def _in_base(self, gripper: FloatArray) -> FloatArray:
+        x, y, yaw = gripper.tolist()
+        return compose(inverse(self.mount.pose), planar_pose(x, y, self.arm.shape.height, yaw))

@@ -1,0 +1,180 @@
+"""Collisions of a robot with itself, a shelf and what stands on it, by Pinocchio and Coal."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from itertools import combinations, product
+from typing import Any
+
+import coal
+import numpy as np
+import pinocchio
+
+from phframe.core import FloatArray, Mount, Scene, Shelf, State
+
+THICKNESS = 0.1
+"""Of board, walls and ceiling (m)."""
+WALL_MARGIN = 0.004
+"""Kept between the robot and the shelf (m): servos give way by some millimetres when they push."""
+OBJECT_MARGIN = 0.001
+"""Kept between the robot and objects that it must not touch (m)."""
+
+
+class CollisionModel:
+    """A robot before a shelf with objects. Its fingers are as far open as they go, unless they are closed.
+
+    What is moved is data inside; asking never depends on what was asked before.
+
+    Args:
+        urdf: The robot.
+        joints: Names of the joints that move, in the order of joint values; all others stay at 0.
+        opened: Joint values of the open fingers, by joint.
+        overlapping: Pairs of links whose covers may overlap.
+        scene: The shelf and its objects.
+        mount: Where the robot's base stands.
+    """
+
+    def __init__(
+        self,
+        urdf: str,
+        joints: Collection[str],
+        opened: dict[str, float],
+        overlapping: Collection[tuple[str, str]],
+        scene: Scene,
+        mount: Mount,
+    ) -> None:
+        whole = pinocchio.buildModelFromXML(urdf)
+        covers = pinocchio.buildGeomFromUrdfString(whole, urdf, pinocchio.GeometryType.COLLISION)
+        at = pinocchio.neutral(whole)
+        for name, value in opened.items():
+            at[whole.joints[whole.getJointId(name)].idx_q] = value
+        others = [number for number, name in enumerate(whole.names) if number and name not in joints]
+        self._model, self._geometry = pinocchio.buildReducedModel(whole, covers, others, at)
+        self._data = self._model.createData()
+        self._rows = np.array([self._model.idx_qs[self._model.getJointId(name)] for name in joints])
+        self._scene, self._base = scene, _placement(mount)
+        self._links = [_link_of(self._model, item) for item in self._geometry.geometryObjects]
+        self._shelf, self._objects = self._add_surroundings()
+        self._pair_up({frozenset(pair) for pair in overlapping})
+        self._checks = self._geometry.createData()
+        self._set_margins()
+        seconds = [pair.second for pair in self._geometry.collisionPairs]
+        self._pairs_by_row = [np.flatnonzero(np.array(seconds) == number).tolist() for number in self._objects]
+        self._manager = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(
+            self._model, self._geometry, self._checks
+        )
+
+    def place(self, state: State) -> None:
+        """Let the objects stand where a state has them; what has spilled is far away."""
+        away = pinocchio.SE3(np.eye(3), np.array([-10.0, 0.0, 0.0]))
+        for row, number in enumerate(self._objects):
+            x, y, z, scalar, i, j, k = state.poses[row].tolist()
+            pose = pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
+            seen = self._base.actInv(pose) if state.on_board[row] else away
+            self._geometry.geometryObjects[number].placement = seen
+
+    def allow(self, rows: Collection[int]) -> None:
+        """Let the robot touch the objects in these rows of the scene, and no others."""
+        for row, pairs in enumerate(self._pairs_by_row):
+            for index in pairs:
+                self._checks.activeCollisionPairs[index] = row not in rows
+
+    @contextmanager
+    def tolerating(self, q: FloatArray) -> Iterator[None]:
+        """Lets what touches at joint values ``(dof,)`` touch in this block: whoever begins there must get away."""
+        touching = [index for index, _ in self._touching(q)]
+        for index in touching:
+            self._checks.activeCollisionPairs[index] = False
+        try:
+            yield
+        finally:
+            for index in touching:
+                self._checks.activeCollisionPairs[index] = True
+
+    def is_free(self, q: FloatArray) -> bool:
+        """Whether the robot touches nothing at joint values ``(dof,)``."""
+        return not pinocchio.computeCollisions(self._model, self._data, self._manager, self._all(q), True)
+
+    def collisions(self, q: FloatArray) -> tuple[tuple[str, str], ...]:
+        """What touches what at joint values ``(dof,)``: a link of the robot, and a link, a wall or an object."""
+        return tuple((self._links[pair.first], self._links[pair.second]) for _, pair in self._touching(q))
+
+    def _touching(self, q: FloatArray) -> list[tuple[int, Any]]:
+        """Index and pair of all that collide."""
+        pinocchio.computeCollisions(self._model, self._data, self._geometry, self._checks, self._all(q), False)
+        active, results = self._checks.activeCollisionPairs, self._checks.collisionResults
+        pairs = enumerate(self._geometry.collisionPairs)
+        return [(index, pair) for index, pair in pairs if active[index] and results[index].isCollision()]
+
+    def _all(self, q: FloatArray) -> FloatArray:
+        values = np.empty(len(q))
+        values[self._rows] = q
+        return values
+
+    def _add_surroundings(self) -> tuple[list[int], list[int]]:
+        """Put shelf and objects in; their numbers."""
+        shelf = [self._add(name, box, place) for name, box, place in _walls(self._scene.shelf)]
+        objects = []
+        for item in self._scene.objects:
+            cylinder = coal.Cylinder(item.shape.radius, item.shape.height)
+            objects.append(self._add(item.id, cylinder, np.zeros(3)))
+        self._object_numbers = frozenset(objects)
+        return shelf, objects
+
+    def _add(self, name: str, shape: Any, at: FloatArray) -> int:
+        placement = self._base.actInv(pinocchio.SE3(np.eye(3), at))
+        # Ids may clash with links' names, which the engine would not have twice.
+        thing = pinocchio.GeometryObject(f"surroundings/{len(self._links)}", 0, 0, placement, shape)
+        self._links.append(name)
+        return int(self._geometry.addGeometryObject(thing))
+
+    def _pair_up(self, overlapping: set[frozenset[str]]) -> None:
+        """Say what may collide with what: moving links with all that they are not joined to."""
+        geometry = self._geometry
+        geometry.removeAllCollisionPairs()
+        own = range(len(geometry.geometryObjects) - len(self._shelf) - len(self._objects))
+        for first, second in combinations(own, 2):
+            if (
+                self._may_meet(first, second)
+                and frozenset((self._links[first], self._links[second])) not in overlapping
+            ):
+                geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
+        moving = [number for number in own if geometry.geometryObjects[number].parentJoint]
+        for first, second in product(moving, (*self._shelf, *self._objects)):
+            geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
+
+    def _may_meet(self, first: int, second: int) -> bool:
+        """Whether two covers move against one another and do not belong to links joined to one another."""
+        a, b = (self._geometry.geometryObjects[number].parentJoint for number in (first, second))
+        return a != b and self._model.parents[a] != b and self._model.parents[b] != a
+
+    def _set_margins(self) -> None:
+        for index, pair in enumerate(self._geometry.collisionPairs):
+            if pair.second in self._object_numbers:
+                self._checks.collisionRequests[index].security_margin = OBJECT_MARGIN
+            elif pair.second in self._shelf:
+                self._checks.collisionRequests[index].security_margin = WALL_MARGIN
+
+
+def _placement(mount: Mount) -> Any:
+    x, y, z, scalar, i, j, k = mount.pose.tolist()
+    return pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
+
+
+def _link_of(model: Any, item: Any) -> str:
+    return str(model.frames[item.parentFrame].name)
+
+
+def _walls(shelf: Shelf) -> Iterator[tuple[str, Any, FloatArray]]:
+    """Name, box and centre (m) of each."""
+    depth, width, height, t = shelf.depth, shelf.width, shelf.height, THICKNESS
+    for name, lower, upper in (
+        ("board", (0.0, -t, -t), (depth + t, width + t, 0.0)),
+        ("south wall", (0.0, -t, 0.0), (depth, 0.0, height)),
+        ("north wall", (0.0, width, 0.0), (depth, width + t, height)),
+        ("back wall", (depth, -t, 0.0), (depth + t, width + t, height)),
+        ("ceiling", (0.0, -t, height), (depth + t, width + t, height + t)),
+    ):
+        low, high = np.array(lower), np.array(upper)
+        yield name, coal.Box(*(high - low)), (low + high) / 2.0

@@ -1,0 +1,78 @@
+"""Follows gripper poses in the gripper plane with joints that change continuously, in the best posture at hand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from phframe.arms.pinocchio_ import Kinematics
+from phframe.arms.posture import Posture
+from phframe.core import FloatArray
+
+REACHED = 1e-6
+"""What is left of position (m) and turn (rad) together when a pose counts as reached."""
+STEPS = 8
+"""Most steps to one pose."""
+LONGEST_MOTION = 0.03
+"""Of the joints from one pose to the next while the gripper stays, for the sake of the posture (rad or m, norm)."""
+LONGEST_STEP = 0.25
+"""Of any joint from one pose to the next (rad or m): more is another posture."""
+STIFFNESS = 1e-6
+"""Keeps the posture where nothing is gained by changing it."""
+
+
+class Follower:
+    """Takes an arm from pose to pose.
+
+    Args:
+        kinematics: Of the arm.
+        posture: What is a good one.
+    """
+
+    def __init__(self, kinematics: Kinematics, posture: Posture) -> None:
+        self._kinematics, self._posture = kinematics, posture
+
+    def next(self, q: FloatArray, target: Any, gripper: FloatArray) -> FloatArray | None:
+        """Joint values ``(dof,)`` for a pose near the one that ``q`` has, or None.
+
+        Args:
+            q: Joint values ``(dof,)``.
+            target: The pose, as the kinematics want it.
+            gripper: The same seen from above ``(3,)``, in the shelf frame.
+        """
+        kinematics, begin = self._kinematics, q
+        for step in range(STEPS):
+            error, jacobian = kinematics.error(q, target)
+            if step and float(error @ error) < REACHED**2:
+                return q if float(np.abs(q - begin).max()) < LONGEST_STEP else None
+            square = jacobian @ jacobian.T
+            square[np.diag_indices(6)] += 1e-9
+            move = jacobian.T @ np.linalg.solve(square, error)
+            if step == 0 and len(q) > 6:
+                move = move + self._improvement(q, jacobian, gripper)
+            q = np.clip(q + move, kinematics.lower, kinematics.upper)
+        return None
+
+    def improved(self, q: FloatArray, target: Any, gripper: FloatArray, times: int) -> FloatArray | None:
+        """The posture after so many improvements with the gripper at one place, or None where it is lost."""
+        for _ in range(times):
+            found = self.next(q, target, gripper)
+            if found is None:
+                return None
+            q = found
+        return q
+
+    def joints_at_limits(self, q: FloatArray) -> Sequence[int]:
+        """Numbers of the joints that stand at a limit."""
+        lower, upper = self._kinematics.lower, self._kinematics.upper
+        at = (q <= lower + 1e-6) | (q >= upper - 1e-6)
+        return [int(row) for row in np.flatnonzero(at)]
+
+    def _improvement(self, q: FloatArray, jacobian: FloatArray, gripper: FloatArray) -> FloatArray:
+        """One Gauss-Newton step ``(dof,)`` along the self-motion, in which the gripper stays."""
+        direction = np.linalg.svd(jacobian)[2][-1]
+        residuals, slopes = self._posture.strain(q, direction, gripper)
+        step = -float(residuals @ slopes) / (float(slopes @ slopes) + STIFFNESS)
+        return np.asarray(np.clip(step, -LONGEST_MOTION, LONGEST_MOTION) * direction)

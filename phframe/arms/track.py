@@ -1,0 +1,115 @@
+"""Joints that take the gripper along given poses and hit nothing on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pinocchio
+
+from phframe.arms.coal_ import CollisionModel
+from phframe.arms.follow import Follower
+from phframe.core import FloatArray, Mount, compose, inverse, planar_pose
+
+MOUTH_ZONE = 0.05
+"""With less than this of the fingers in the shelf (m), the gripper may turn away from the path's yaw."""
+TURNS = tuple(np.radians([0.0, -15.0, -30.0, -45.0, 15.0, 30.0, 45.0]).tolist())
+"""How far it may do so on the way out (rad), tried in this order: none at first, all after ``MOUTH_ZONE`` of depth."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Track:
+    """Joints for poses, as far as they could be followed.
+
+    Attributes:
+        joints: ``(k, dof)``.
+        poses: That they stand for ``(k, 3)``: x, y, yaw.
+        why: What ended it; empty where all could be followed.
+        bodies: What was in the way, if anything.
+    """
+
+    joints: FloatArray
+    poses: FloatArray
+    why: str = ""
+    bodies: tuple[str, ...] = ()
+
+    @property
+    def complete(self) -> bool:
+        """Whether all poses could be followed."""
+        return not self.why
+
+
+class Tracker:
+    """Follows poses of the gripper, level in its plane.
+
+    Args:
+        follower: Takes the joints from pose to pose.
+        collisions: What must not be hit.
+        mount: Of the arm.
+        height: Of the gripper plane above the board (m).
+        joints: Names of the joints.
+    """
+
+    def __init__(
+        self, follower: Follower, collisions: CollisionModel, mount: Mount, height: float, joints: Sequence[str]
+    ) -> None:
+        self._follower, self._collisions = follower, collisions
+        self._base, self._height, self._names = inverse(mount.pose), height, joints
+
+    def target(self, gripper: FloatArray) -> Any:
+        """A pose seen from above ``(3,)`` as the follower wants it, in the frame of the base."""
+        x, y, yaw = gripper.tolist()
+        px, py, pz, scalar, i, j, k = compose(self._base, planar_pose(x, y, self._height, yaw)).tolist()
+        return pinocchio.XYZQUATToSE3(np.array([px, py, pz, i, j, k, scalar]))
+
+    def follow(self, q: FloatArray, poses: Iterable[FloatArray]) -> Track:
+        """From joint values ``(dof,)`` through poses; what may be touched is what the collisions allow."""
+        joints: list[FloatArray] = []
+        done: list[FloatArray] = []
+        for pose in poses:
+            found = self._follower.next(q, self.target(pose), pose)
+            if found is None:
+                return _track(q, joints, done, self._out_of_reach(q))
+            if not self._collisions.is_free(found):
+                link, body = self._collisions.collisions(found)[0]
+                return _track(q, joints, done, f"{link} meets {body}", (body,))
+            q = found
+            joints.append(q)
+            done.append(pose)
+        return _track(q, joints, done, "")
+
+    def leave(self, q: FloatArray, poses: FloatArray, begin: float) -> Track:
+        """From joint values outwards through poses ``(k, 3)``, turning away from their yaw where that helps.
+
+        Args:
+            q: Joint values ``(dof,)``.
+            poses: Outwards, all in the mouth zone.
+            begin: Depth at which ``q`` has the fingertip (m).
+        """
+        longest: Track | None = None
+        for turn in TURNS:
+            track = self.follow(q, _turned(poses, turn, begin))
+            if longest is None or len(track.joints) > len(longest.joints):
+                longest = track
+            if track.complete:
+                break
+        assert longest is not None
+        return longest
+
+    def _out_of_reach(self, q: FloatArray) -> str:
+        at = [self._names[row] for row in self._follower.joints_at_limits(q)]
+        return f"out of reach, with {' and '.join(at)} at the limit" if at else "out of reach in this posture"
+
+
+def _turned(poses: FloatArray, turn: float, begin: float) -> FloatArray:
+    """Poses with a turn that grows on the way out."""
+    shares = np.clip((begin - poses[:, 0]) / MOUTH_ZONE, 0.0, 1.0)
+    return poses + np.column_stack([np.zeros((len(poses), 2)), turn * shares])
+
+
+def _track(
+    q: FloatArray, joints: list[FloatArray], poses: list[FloatArray], why: str, bodies: tuple[str, ...] = ()
+) -> Track:
+    return Track(np.array(joints).reshape(-1, len(q)), np.array(poses).reshape(-1, 3), why, bodies)

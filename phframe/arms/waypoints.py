@@ -1,0 +1,48 @@
+"""A gripper path as poses that follow one another closely."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from phframe.core import FloatArray, GripperPath, IntArray
+
+SPACING = 0.005
+"""Between poses (m)."""
+TURN_SPACING = math.radians(1.5)
+"""Between poses (rad)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Waypoints:
+    """Poses along a path.
+
+    Attributes:
+        poses: ``(k, 3)`` x, y, yaw in the shelf frame.
+        legs: The path's leg that leads to each pose ``(k,)``; of the first, the first.
+        lengths: Way of the fingertip to each pose ``(k,)`` (m).
+    """
+
+    poses: FloatArray
+    legs: IntArray
+    lengths: FloatArray
+
+
+def waypoints(path: GripperPath) -> Waypoints:
+    """The corners of a path and poses between them; a leg in which only the gripper opens has one pose, its end."""
+    poses, legs = [path.poses[:1]], [0]
+    for leg, (start, end) in enumerate(zip(path.poses[:-1], path.poses[1:], strict=True)):
+        count = _steps(end - start)
+        shares = np.arange(1, count + 1)[:, None] / count
+        poses.append(start + shares * (end - start))
+        legs += [leg] * count
+    found = np.vstack(poses)
+    ways = np.hypot(*np.diff(found[:, :2], axis=0).T)
+    return Waypoints(found, np.array(legs), np.concatenate([[0.0], np.cumsum(ways)]))
+
+
+def _steps(step: FloatArray) -> int:
+    moves, turns = math.hypot(step[0], step[1]) / SPACING, abs(float(step[2])) / TURN_SPACING
+    return max(1, math.ceil(max(moves, turns) - 1e-9))
