@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from itertools import chain
@@ -51,6 +52,10 @@ WIDE = 0.01
 RESOLUTION = 0.03
 """Most that a joint moves between two configurations of a free way that are looked at (rad or m)."""
 
+ROUGHLY = 3
+"""Every how many of its poses a route is looked at before it is made."""
+YAW_STEPS = (math.radians(5.0), math.radians(10.0))
+"""How far the gripper may be turned against a path in the shelf, for want of a route at the path's own yaw (rad)."""
 UNAPPROACHABLE = Unreachable(0.0, "no free way leads to where the path goes in", 0)
 
 
@@ -75,10 +80,9 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         skin = Skin(self._kinematics, arm.robot, self._described.joints, arm.tip_link, mount, scene.shelf.depth)
         self._posture = Posture(self._kinematics, skin, self._described.behind, scene.shelf)
         self._follower = Follower(self._kinematics, self._posture)
-        opened = {joint.name: joint.upper for joint in arm.fingers.joints}
         names, apart = self._described.joints, self._described.overlapping
-        self._collisions = CollisionModel(arm.urdf(), names, opened, apart, scene, mount)
-        self._tracker = Tracker(self._follower, self._collisions, mount, arm.shape.height, names)
+        self._collisions = CollisionModel(arm.urdf(), names, self._described.fingers, apart, scene, mount)
+        self._tracker = Tracker(self._follower, self._collisions, mount, arm, scene)
         self._scheduler = Scheduler(arm, mount, options)
 
     def plan(
@@ -90,7 +94,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         """
         self._collisions.place(state)
         begin, opening = self._where(state)
-        router = Router(path, waypoints(path), self.scene, self._tracker, self._collisions)
+        router = Router(path, waypoints(path), self._tracker)
         if self._goes_on(begin, path):
             route = router.onwards(begin)
             if isinstance(route, Unreachable):
@@ -129,7 +133,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         best: tuple[float, FloatArray, Route] | None = None
         farthest = Unreachable(0.0, "no posture has the gripper where the path goes in", 0)
         for number, posture in enumerate(self._postures(router.entrance, begin, attempts, rng)):
-            route = router.through(posture)
+            route = self._route(router, posture)
             if isinstance(route, Unreachable):
                 farthest = max(farthest, route, key=lambda end: end.where)
             elif best is None or self._excess(route) < best[0]:
@@ -145,6 +149,20 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
             return farthest
         first = path.rules[path.phases[0]].opening
         return self._scheduler.trajectory([*free_way(best[1], opening, first), *legs_of(best[2], path, first)])
+
+    def _route(self, router: Router, posture: FloatArray) -> Route | Unreachable:
+        """The route through a posture at the gate: at the path's yaw, or the nearest to it that can be had."""
+        route = self._route_at(router, posture, 0.0)
+        for yaw in _turns(route) if isinstance(route, Unreachable) else ():
+            turned = self._route_at(router, posture, yaw)
+            if isinstance(turned, Route):
+                return turned
+        return route
+
+    def _route_at(self, router: Router, posture: FloatArray, yaw: float) -> Route | Unreachable:
+        """The route at a yaw against the path (rad), looked at roughly before it is made."""
+        rough = router.through(posture, yaw, ROUGHLY)
+        return rough if isinstance(rough, Unreachable) else router.through(posture, yaw, 1)
 
     def _postures(
         self, pose: FloatArray, begin: FloatArray, attempts: int, rng: np.random.Generator
@@ -187,3 +205,10 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
     def _in_base(self, gripper: FloatArray) -> FloatArray:
         x, y, yaw = gripper.tolist()
         return compose(inverse(self.mount.pose), planar_pose(x, y, self.arm.shape.height, yaw))
+
+
+def _turns(ending: Unreachable) -> Iterator[float]:
+    """Yaws to try where a route ends (rad), least first: away from a wall."""
+    signs = (1.0,) if "north wall" in ending.bodies else (-1.0,) if "south wall" in ending.bodies else (1.0, -1.0)
+    for step in YAW_STEPS:
+        yield from (sign * step for sign in signs)

@@ -15,21 +15,21 @@ from phframe.core import FloatArray, Mount, Scene, Shelf, State
 
 THICKNESS = 0.1
 """Of board, walls and ceiling (m)."""
-WALL_MARGIN = 0.004
-"""Kept between the robot and the shelf (m): servos give way by some millimetres when they push."""
+WALL_MARGIN = 0.0015
+"""Kept between the robot and the shelf (m)."""
 OBJECT_MARGIN = 0.001
 """Kept between the robot and objects that it must not touch (m)."""
 
 
 class CollisionModel:
-    """A robot before a shelf with objects. Its fingers are as far open as they go, unless they are closed.
+    """A robot before a shelf with objects.
 
-    What is moved is data inside; asking never depends on what was asked before.
+    Objects and fingers are put in place first, then configurations are looked at.
 
     Args:
         urdf: The robot.
         joints: Names of the joints that move, in the order of joint values; all others stay at 0.
-        opened: Joint values of the open fingers, by joint.
+        fingers: Names of the joints of the two fingers.
         overlapping: Pairs of links whose covers may overlap.
         scene: The shelf and its objects.
         mount: Where the robot's base stands.
@@ -39,20 +39,21 @@ class CollisionModel:
         self,
         urdf: str,
         joints: Collection[str],
-        opened: dict[str, float],
+        fingers: Collection[str],
         overlapping: Collection[tuple[str, str]],
         scene: Scene,
         mount: Mount,
     ) -> None:
         whole = pinocchio.buildModelFromXML(urdf)
         covers = pinocchio.buildGeomFromUrdfString(whole, urdf, pinocchio.GeometryType.COLLISION)
-        at = pinocchio.neutral(whole)
-        for name, value in opened.items():
-            at[whole.joints[whole.getJointId(name)].idx_q] = value
-        others = [number for number, name in enumerate(whole.names) if number and name not in joints]
-        self._model, self._geometry = pinocchio.buildReducedModel(whole, covers, others, at)
-        self._data = self._model.createData()
-        self._rows = np.array([self._model.idx_qs[self._model.getJointId(name)] for name in joints])
+        moving = {*joints, *fingers}
+        others = [number for number, name in enumerate(whole.names) if number and name not in moving]
+        self._model, self._geometry = pinocchio.buildReducedModel(whole, covers, others, pinocchio.neutral(whole))
+        self._data, self._values = self._model.createData(), np.zeros(self._model.nq)
+        self._rows, self._finger_rows = (
+            np.array([self._model.idx_qs[self._model.getJointId(name)] for name in names])
+            for names in (joints, fingers)
+        )
         self._scene, self._base = scene, _placement(mount)
         self._links = [_link_of(self._model, item) for item in self._geometry.geometryObjects]
         self._shelf, self._objects = self._add_surroundings()
@@ -73,6 +74,10 @@ class CollisionModel:
             pose = pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
             seen = self._base.actInv(pose) if state.on_board[row] else away
             self._geometry.geometryObjects[number].placement = seen
+
+    def open(self, fingers: FloatArray) -> None:
+        """Let the joints of the fingers have values ``(2,)``."""
+        self._values[self._finger_rows] = fingers
 
     def allow(self, rows: Collection[int]) -> None:
         """Let the robot touch the objects in these rows of the scene, and no others."""
@@ -108,9 +113,8 @@ class CollisionModel:
         return [(index, pair) for index, pair in pairs if active[index] and results[index].isCollision()]
 
     def _all(self, q: FloatArray) -> FloatArray:
-        values = np.empty(len(q))
-        values[self._rows] = q
-        return values
+        self._values[self._rows] = q
+        return self._values
 
     def _add_surroundings(self) -> tuple[list[int], list[int]]:
         """Put shelf and objects in; their numbers."""

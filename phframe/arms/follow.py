@@ -16,9 +16,9 @@ REACHED = 1e-6
 STEPS = 8
 """Most steps to one pose."""
 LONGEST_MOTION = 0.03
-"""Of the joints from one pose to the next while the gripper stays, for the sake of the posture (rad or m, norm)."""
-LONGEST_STEP = 0.25
-"""Of any joint from one pose to the next (rad or m): more is another posture."""
+"""Of the joints for the sake of the posture while the gripper goes on by one spacing of a path (rad or m, norm)."""
+LONGEST_STEP = 0.2
+"""Of any joint meanwhile (rad or m): more is another posture."""
 STIFFNESS = 1e-6
 """Keeps the posture where nothing is gained by changing it."""
 
@@ -34,24 +34,25 @@ class Follower:
     def __init__(self, kinematics: Kinematics, posture: Posture) -> None:
         self._kinematics, self._posture = kinematics, posture
 
-    def next(self, q: FloatArray, target: Any, gripper: FloatArray) -> FloatArray | None:
+    def next(self, q: FloatArray, target: Any, gripper: FloatArray, stride: int = 1) -> FloatArray | None:
         """Joint values ``(dof,)`` for a pose near the one that ``q`` has, or None.
 
         Args:
             q: Joint values ``(dof,)``.
             target: The pose, as the kinematics want it.
             gripper: The same seen from above ``(3,)``, in the shelf frame.
+            stride: How many spacings of a path it is away.
         """
         kinematics, begin = self._kinematics, q
         for step in range(STEPS):
             error, jacobian = kinematics.error(q, target)
             if step and float(error @ error) < REACHED**2:
-                return q if float(np.abs(q - begin).max()) < LONGEST_STEP else None
+                return q if float(np.abs(q - begin).max()) < LONGEST_STEP * stride**0.5 else None
             square = jacobian @ jacobian.T
             square[np.diag_indices(6)] += 1e-9
             move = jacobian.T @ np.linalg.solve(square, error)
             if step == 0 and len(q) > 6:
-                move = move + self._improvement(q, jacobian, gripper)
+                move = move + self._improvement(q, jacobian, gripper, LONGEST_MOTION * stride)
             q = np.clip(q + move, kinematics.lower, kinematics.upper)
         return None
 
@@ -70,9 +71,9 @@ class Follower:
         at = (q <= lower + 1e-6) | (q >= upper - 1e-6)
         return [int(row) for row in np.flatnonzero(at)]
 
-    def _improvement(self, q: FloatArray, jacobian: FloatArray, gripper: FloatArray) -> FloatArray:
+    def _improvement(self, q: FloatArray, jacobian: FloatArray, gripper: FloatArray, longest: float) -> FloatArray:
         """One Gauss-Newton step ``(dof,)`` along the self-motion, in which the gripper stays."""
         direction = np.linalg.svd(jacobian)[2][-1]
         residuals, slopes = self._posture.strain(q, direction, gripper)
         step = -float(residuals @ slopes) / (float(slopes @ slopes) + STIFFNESS)
-        return np.asarray(np.clip(step, -LONGEST_MOTION, LONGEST_MOTION) * direction)
+        return np.asarray(np.clip(step, -longest, longest) * direction)

@@ -8,10 +8,9 @@ from itertools import groupby
 
 import numpy as np
 
-from phframe.arms.coal_ import CollisionModel
 from phframe.arms.track import MOUTH_ZONE, Track, Tracker
 from phframe.arms.waypoints import Waypoints
-from phframe.core import Contacts, FloatArray, GripperPath, IntArray, Phase, Scene, Unreachable
+from phframe.core import FloatArray, GripperPath, IntArray, Phase, PhaseRule, Unreachable
 
 OUTSIDE = -0.02
 """The fingertip has left the shelf when it is farther out than this (m)."""
@@ -37,49 +36,54 @@ class Route:
 
 
 class Router:
-    """Makes routes for one path among objects that stand where the collisions have them.
+    """Makes routes for one path.
 
     Args:
         path: The path.
         line: Its poses.
-        scene: Whose objects may be touched or not.
-        tracker: Follows poses.
-        collisions: What must not be hit.
+        tracker: Follows poses; its collisions know where everything stands.
     """
 
-    def __init__(
-        self, path: GripperPath, line: Waypoints, scene: Scene, tracker: Tracker, collisions: CollisionModel
-    ) -> None:
-        self._path, self._line, self._scene = path, line, scene
-        self._tracker, self._collisions = tracker, collisions
+    def __init__(self, path: GripperPath, line: Waypoints, tracker: Tracker) -> None:
+        self._path, self._line, self._tracker = path, line, tracker
         deep = np.flatnonzero(line.poses[:, 0] >= MOUTH_ZONE)
         deepest = int(line.poses[:, 0].argmax())
-        self.gate, self._last = (int(deep[0]), int(deep[-1])) if len(deep) else (deepest, deepest)
+        self._gate, self._last = (int(deep[0]), int(deep[-1])) if len(deep) else (deepest, deepest)
 
     @property
     def entrance(self) -> FloatArray:
-        """The pose ``(3,)`` at the gate."""
-        return self._line.poses[self.gate]
+        """The pose ``(3,)`` at the gate, the first behind the mouth zone."""
+        return self._line.poses[self._gate]
 
-    def through(self, q: FloatArray) -> Route | Unreachable:
-        """The route that has joint values ``(dof,)`` at the gate, the first pose behind the mouth zone."""
-        gate = self._line.poses[self.gate]
-        inner = self._onwards(q, self.gate)
+    def through(self, posture: FloatArray, yaw: float, stride: int) -> Route | Unreachable:
+        """The route that has joint values at the gate.
+
+        Args:
+            posture: The joint values ``(dof,)``.
+            yaw: By how much the gripper is turned against the path while it is in the shelf (rad).
+            stride: Every how many of the poses is looked at.
+        """
+        line = self._line.turned(yaw)
+        q = self._tracker.settled(posture, line.poses[self._gate]) if yaw else posture
+        if q is None:
+            return Unreachable(0.0, f"out of reach turned by {np.degrees(yaw):.0f} degrees", 0)
+        inner = self._onwards(line, q, self._gate, stride)
         if isinstance(inner, Unreachable):
             return inner
-        before = np.arange(self.gate - 1, -1, -1)
-        before = before[self._line.poses[before, 0] >= ENTERED_FROM]
-        self._permit(int(self._line.legs[self.gate]))
-        entry = self._tracker.leave(q, self._line.poses[before], float(gate[0]))
+        before = np.arange(self._gate)
+        before = before[line.poses[before, 0] >= ENTERED_FROM][::-stride]
+        gate, leg = line.poses[self._gate], int(line.legs[self._gate])
+        self._tracker.permit(self._rule(leg))
+        entry = self._tracker.leave(q, line.poses[before], float(gate[0]), stride)
         return Route(
             np.vstack([entry.joints[::-1], q[None], inner.joints]),
             np.vstack([entry.poses[::-1], gate[None], inner.poses]),
-            np.concatenate([np.full(len(entry.joints) + 1, self._line.legs[self.gate]), inner.legs]),
+            np.concatenate([np.full(len(entry.joints) + 1, leg), inner.legs]),
         )
 
     def onwards(self, q: FloatArray) -> Route | Unreachable:
         """The route that begins with joint values ``(dof,)`` at, or close to, the path's first pose."""
-        route = self._onwards(q, 0)
+        route = self._onwards(self._line, q, 0, 1)
         if isinstance(route, Unreachable):
             return route
         return Route(
@@ -88,17 +92,23 @@ class Router:
             np.concatenate([self._line.legs[:1], route.legs]),
         )
 
-    def _onwards(self, q: FloatArray, begin: int) -> Route | Unreachable:
+    def _onwards(self, line: Waypoints, q: FloatArray, begin: int, stride: int) -> Route | Unreachable:
         """From joint values at one of the poses, which is not among the route's, to the path's end."""
         tracks, rows = [], []
         for leg, stretch in self._stretches(begin + 1):
-            track = self._along(q, leg, stretch)
+            looked_at = _thinned(stretch, stride)
+            self._tracker.permit(self._rule(leg))
+            poses = line.poses[looked_at]
+            if stretch[0] <= self._last:
+                track = self._tracker.follow(q, poses, stride)
+            else:
+                track = self._tracker.leave(q, poses, float(line.poses[stretch[0] - 1, 0]), stride)
             tracks.append(track)
-            rows.append(stretch[: len(track.joints)])
+            rows.append(looked_at[: len(track.joints)])
             q = track.joints[-1] if len(track.joints) else q
             if not track.complete:
                 if not self._is_out(track, leg):
-                    return self._unreachable(track, int(stretch[len(track.joints)]))
+                    return self._unreachable(track, int(looked_at[len(track.joints)]))
                 break
         return self._joined(tracks, rows, len(q))
 
@@ -108,22 +118,8 @@ class Router:
         for (leg, _), stretch in groupby(rows, lambda row: (int(self._line.legs[row]), row > self._last)):
             yield leg, np.array(list(stretch))
 
-    def _along(self, q: FloatArray, leg: int, rows: IntArray) -> Track:
-        self._permit(leg)
-        poses = self._line.poses[rows]
-        if rows[0] <= self._last:
-            return self._tracker.follow(q, poses)
-        return self._tracker.leave(q, poses, float(self._line.poses[rows[0] - 1, 0]))
-
-    def _permit(self, leg: int) -> None:
-        """Let the arm touch what the rule of a leg allows."""
-        match self._path.rules[self._path.phases[leg]].contacts:
-            case Contacts.OBJECTS:
-                self._collisions.allow(range(len(self._scene.objects)))
-            case Contacts.TARGET:
-                self._collisions.allow([self._scene.target_index])
-            case _:
-                self._collisions.allow([])
+    def _rule(self, leg: int) -> PhaseRule:
+        return self._path.rules[self._path.phases[leg]]
 
     def _is_out(self, track: Track, leg: int) -> bool:
         """Whether a leg that ends early has led far enough out of the shelf."""
@@ -143,3 +139,8 @@ class Router:
             np.vstack([np.empty((0, 3)), *(track.poses for track in tracks)]),
             self._line.legs[np.concatenate([np.empty(0, dtype=np.int64), *rows])],
         )
+
+
+def _thinned(rows: IntArray, stride: int) -> IntArray:
+    """Every so many of the rows, the last one among them."""
+    return rows if len(rows) < 2 else np.unique(np.append(rows[stride - 1 :: stride], rows[-1]))

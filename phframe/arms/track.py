@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,12 +11,15 @@ import pinocchio
 
 from phframe.arms.coal_ import CollisionModel
 from phframe.arms.follow import Follower
-from phframe.core import FloatArray, Mount, compose, inverse, planar_pose
+from phframe.core import ArmModel, Contacts, FloatArray, Mount, PhaseRule, Scene, compose, inverse, planar_pose
 
 MOUTH_ZONE = 0.05
 """With less than this of the fingers in the shelf (m), the gripper may turn away from the path's yaw."""
 TURNS = tuple(np.radians([0.0, -15.0, -30.0, -45.0, 15.0, 30.0, 45.0]).tolist())
 """How far it may do so on the way out (rad), tried in this order: none at first, all after ``MOUTH_ZONE`` of depth."""
+
+SETTLING = 4
+"""Improvements of a posture at one pose."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,15 +51,29 @@ class Tracker:
         follower: Takes the joints from pose to pose.
         collisions: What must not be hit.
         mount: Of the arm.
-        height: Of the gripper plane above the board (m).
-        joints: Names of the joints.
+        arm: The arm.
+        scene: Whose objects may be touched or not.
     """
 
     def __init__(
-        self, follower: Follower, collisions: CollisionModel, mount: Mount, height: float, joints: Sequence[str]
+        self, follower: Follower, collisions: CollisionModel, mount: Mount, arm: ArmModel[Any], scene: Scene
     ) -> None:
-        self._follower, self._collisions = follower, collisions
-        self._base, self._height, self._names = inverse(mount.pose), height, joints
+        self._follower, self._collisions, self._scene = follower, collisions, scene
+        self._base, self._height = inverse(mount.pose), arm.shape.height
+        self._names = [joint.name for joint in arm.joints]
+        self._closed = np.array([joint.lower for joint in arm.fingers.joints])
+        self._least = arm.shape.min_opening
+
+    def permit(self, rule: PhaseRule) -> None:
+        """Let the fingers be open and objects be touched as a rule has it."""
+        self._collisions.open(self._closed + max(0.0, rule.opening - self._least) / 2.0)
+        match rule.contacts:
+            case Contacts.OBJECTS:
+                self._collisions.allow(range(len(self._scene.objects)))
+            case Contacts.TARGET:
+                self._collisions.allow([self._scene.target_index])
+            case _:
+                self._collisions.allow([])
 
     def target(self, gripper: FloatArray) -> Any:
         """A pose seen from above ``(3,)`` as the follower wants it, in the frame of the base."""
@@ -64,12 +81,12 @@ class Tracker:
         px, py, pz, scalar, i, j, k = compose(self._base, planar_pose(x, y, self._height, yaw)).tolist()
         return pinocchio.XYZQUATToSE3(np.array([px, py, pz, i, j, k, scalar]))
 
-    def follow(self, q: FloatArray, poses: Iterable[FloatArray]) -> Track:
+    def follow(self, q: FloatArray, poses: Iterable[FloatArray], stride: int) -> Track:
         """From joint values ``(dof,)`` through poses; what may be touched is what the collisions allow."""
         joints: list[FloatArray] = []
         done: list[FloatArray] = []
         for pose in poses:
-            found = self._follower.next(q, self.target(pose), pose)
+            found = self._follower.next(q, self.target(pose), pose, stride)
             if found is None:
                 return _track(q, joints, done, self._out_of_reach(q))
             if not self._collisions.is_free(found):
@@ -80,17 +97,22 @@ class Tracker:
             done.append(pose)
         return _track(q, joints, done, "")
 
-    def leave(self, q: FloatArray, poses: FloatArray, begin: float) -> Track:
+    def settled(self, q: FloatArray, pose: FloatArray) -> FloatArray | None:
+        """Joint values ``(dof,)`` for a pose ``(3,)`` close to that of ``q``, or None."""
+        return self._follower.improved(q, self.target(pose), pose, SETTLING)
+
+    def leave(self, q: FloatArray, poses: FloatArray, begin: float, stride: int) -> Track:
         """From joint values outwards through poses ``(k, 3)``, turning away from their yaw where that helps.
 
         Args:
             q: Joint values ``(dof,)``.
             poses: Outwards, all in the mouth zone.
             begin: Depth at which ``q`` has the fingertip (m).
+            stride: How many spacings of a path they are apart.
         """
         longest: Track | None = None
         for turn in TURNS:
-            track = self.follow(q, _turned(poses, turn, begin))
+            track = self.follow(q, _turned(poses, turn, begin), stride)
             if longest is None or len(track.joints) > len(longest.joints):
                 longest = track
             if track.complete:

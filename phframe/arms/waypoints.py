@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +28,10 @@ class Waypoints:
     poses: FloatArray
     legs: IntArray
     lengths: FloatArray
+
+    def turned(self, yaw: float) -> Waypoints:
+        """The same with the gripper turned about the fingertip by an angle (rad)."""
+        return replace(self, poses=self.poses + np.array([0.0, 0.0, yaw]))
 
 
 def waypoints(path: GripperPath) -> Waypoints:

@@ -276,15 +276,15 @@ MOUTH_AT: Vector = (0.675, 0.35, 0.15)
 followed; 2.5 cm nearer the start is lost, 2.5 cm farther the deep corners are."""
 GRIPPER_HEIGHT = 0.10
 """Of the gripper plane above the board: the forearm's barrel is 0.086 m from its axis."""
+FORCE_LIMIT = 40.0
+"""What the fingertips can push sideways (N): the wrist gives 15 Nm, 0.387 m behind them."""
 WIDTHS = (
     (0.219, 0.0665),  # the tube before the wrist
     (0.315, 0.067),
-    (0.315, 0.087),  # the barrel, whichever way its axis lies
-    (0.36, 0.104),
-    (0.42, 0.107),
-    (0.45, 0.12),  # the forearm, near the mouth
-    (0.55, 0.14),
-    (0.75, 0.14),
+    (0.315, 0.075),  # the barrel, its axis nearly upright
+    (0.42, 0.08),
+    (0.44, 0.085),  # the forearm
+    (0.75, 0.09),
 )
 """Half-width by distance behind the fingertip of configurations that keep the forearm behind the gripper. The arm can
 also be held wider; who plans its motion must choose."""
