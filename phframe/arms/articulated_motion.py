@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterator
-from itertools import chain
+from itertools import chain, cycle, islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +20,7 @@ from phframe.arms.schedule import Scheduler
 from phframe.arms.skin import Skin
 from phframe.arms.stretch import free_way, legs_of
 from phframe.arms.track import Tracker
-from phframe.arms.waypoints import waypoints
+from phframe.arms.waypoints import Waypoints, waypoints
 from phframe.core import (
     FloatArray,
     GripperPath,
@@ -54,9 +54,15 @@ RESOLUTION = 0.03
 
 ROUGHLY = 3
 """Every how many of its poses a route is looked at before it is made."""
-YAW_STEPS = (math.radians(5.0), math.radians(10.0))
+YAW_STEPS = tuple(math.radians(degrees) for degrees in (5.0, 10.0, 15.0))
 """How far the gripper may be turned against a path in the shelf, for want of a route at the path's own yaw (rad)."""
+TURNED = 3
+"""Of so many postures, those that went farthest."""
+OUT_OF_REACH = Unreachable(0.0, "no posture has the gripper on the path", 0)
 UNAPPROACHABLE = Unreachable(0.0, "no free way leads to where the path goes in", 0)
+
+Anchored = tuple[FloatArray, int]
+"""Joint values ``(dof,)``, and the row of the pose that they stand for."""
 
 
 class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
@@ -94,13 +100,14 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         """
         self._collisions.place(state)
         begin, opening = self._where(state)
-        router = Router(path, waypoints(path), self._tracker)
+        line = waypoints(path)
+        router = Router(path, line, self._tracker)
         if self._goes_on(begin, path):
             route = router.onwards(begin)
             if isinstance(route, Unreachable):
                 return route
             return self._scheduler.trajectory([*legs_of(route, path, opening)])
-        return self._approached(path, router, begin, opening, attempts, time.monotonic() + seconds, rng)
+        return self._approached(path, router, line, begin, opening, attempts, time.monotonic() + seconds, rng)
 
     def _where(self, state: State) -> tuple[FloatArray, float]:
         """Joint values ``(dof,)`` and commanded opening (m)."""
@@ -123,6 +130,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         self,
         path: GripperPath,
         router: Router,
+        line: Waypoints,
         begin: FloatArray,
         opening: float,
         attempts: int,
@@ -131,55 +139,73 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
     ) -> JointTrajectory | Unreachable:
         """The way to where a path's route begins, and the route: the first that is narrow, else the narrowest."""
         best: tuple[float, FloatArray, Route] | None = None
-        farthest = Unreachable(0.0, "no posture has the gripper where the path goes in", 0)
-        for number, posture in enumerate(self._postures(router.entrance, begin, attempts, rng)):
-            route = self._route(router, posture)
-            if isinstance(route, Unreachable):
-                farthest = max(farthest, route, key=lambda end: end.where)
-            elif best is None or self._excess(route) < best[0]:
-                way = self._free_way(begin, route.joints[0], rng)
-                if way is None:
-                    farthest = max(farthest, UNAPPROACHABLE, key=lambda end: end.where)
-                else:
-                    best = self._excess(route), way, route
-            narrow = best is not None and best[0] <= WIDE
-            if narrow or number + 1 >= attempts or time.monotonic() > until:
+        failed: list[tuple[Unreachable, Anchored]] = []
+        postures = self._postures(router, line, begin, attempts, rng)
+        for route, anchored in self._routes(router, postures, attempts, failed):
+            excess = self._excess(route)
+            if best is not None and excess >= best[0]:
+                continue
+            way = self._free_way(begin, route.joints[0], rng)
+            if way is None:
+                failed.append((UNAPPROACHABLE, anchored))
+                continue
+            best = excess, way, route
+            if excess <= WIDE or time.monotonic() > until:
                 break
         if best is None:
-            return farthest
+            return max((end for end, _ in failed), key=lambda end: end.where, default=OUT_OF_REACH)
         first = path.rules[path.phases[0]].opening
         return self._scheduler.trajectory([*free_way(best[1], opening, first), *legs_of(best[2], path, first)])
 
-    def _route(self, router: Router, posture: FloatArray) -> Route | Unreachable:
-        """The route through a posture at the gate: at the path's yaw, or the nearest to it that can be had."""
-        route = self._route_at(router, posture, 0.0)
-        for yaw in _turns(route) if isinstance(route, Unreachable) else ():
-            turned = self._route_at(router, posture, yaw)
-            if isinstance(turned, Route):
-                return turned
-        return route
+    def _routes(
+        self,
+        router: Router,
+        postures: Iterator[Anchored],
+        attempts: int,
+        failed: list[tuple[Unreachable, Anchored]],
+    ) -> Iterator[tuple[Route, Anchored]]:
+        """Routes through different postures; where there is none at the path's own yaw, turned against it."""
+        any_found = False
+        for anchored in islice(postures, attempts):
+            route = self._route(router, anchored, 0.0)
+            if isinstance(route, Unreachable):
+                failed.append((route, anchored))
+            else:
+                any_found = True
+                yield route, anchored
+        if any_found:
+            return
+        farthest = sorted(failed, key=lambda one: -one[0].where)[:TURNED]
+        for ending, anchored in farthest:
+            for yaw in _turns(ending):
+                route = self._route(router, anchored, yaw)
+                if isinstance(route, Route):
+                    yield route, anchored
 
-    def _route_at(self, router: Router, posture: FloatArray, yaw: float) -> Route | Unreachable:
-        """The route at a yaw against the path (rad), looked at roughly before it is made."""
-        rough = router.through(posture, yaw, ROUGHLY)
-        return rough if isinstance(rough, Unreachable) else router.through(posture, yaw, 1)
+    def _route(self, router: Router, anchored: Anchored, yaw: float) -> Route | Unreachable:
+        """The route through a posture, looked at roughly before it is made."""
+        q, row = anchored
+        rough = router.through(q, row, yaw, ROUGHLY)
+        return rough if isinstance(rough, Unreachable) else router.through(q, row, yaw, 1)
 
     def _postures(
-        self, pose: FloatArray, begin: FloatArray, attempts: int, rng: np.random.Generator
-    ) -> Iterator[FloatArray]:
-        """Different joint values ``(dof,)`` for a gripper pose ``(3,)``: from where the arm is, from described ones, by chance."""
+        self, router: Router, line: Waypoints, begin: FloatArray, attempts: int, rng: np.random.Generator
+    ) -> Iterator[Anchored]:
+        """Different joint values for one of the line's poses: from where the arm is, from described ones, by chance."""
         lower, upper = self._kinematics.lower, self._kinematics.upper
-        described = np.array([self.arm.home, *self._described.postures])
-        by_chance = (rng.uniform(lower, upper) for _ in range(DESCENTS * attempts))
-        found: list[FloatArray] = []
-        for seed in chain([begin], described, by_chance):
+        seeds = [(seed, router.gate) for seed in (begin, self.arm.home, *map(np.array, self._described.postures))]
+        rows = cycle((router.deepest, router.gate))
+        by_chance = ((rng.uniform(lower, upper), next(rows)) for _ in range(DESCENTS * attempts))
+        found: list[Anchored] = []
+        for seed, row in chain(seeds, by_chance):
+            pose = line.poses[row]
             q = self._kinematics.descend(self._in_base(pose), seed)
-            if q is None or any(float(np.abs(q - other).max()) < ALIKE for other in found):
+            if q is None or any(at == row and float(np.abs(q - other).max()) < ALIKE for other, at in found):
                 continue
-            found.append(q)
+            found.append((q, row))
             improved = self._follower.improved(q, self._tracker.target(pose), pose, IMPROVEMENTS)
             if improved is not None:
-                yield improved
+                yield improved, row
 
     def _free_way(self, begin: FloatArray, end: FloatArray, rng: np.random.Generator) -> FloatArray | None:
         """Corners ``(k, dof)`` of a way on which nothing is touched but what is touched at its begin."""

@@ -42,43 +42,42 @@ class Router:
         path: The path.
         line: Its poses.
         tracker: Follows poses; its collisions know where everything stands.
+
+    Attributes:
+        gate: Row of the first pose behind the mouth zone.
+        deepest: Row of the first of the deepest poses.
     """
 
     def __init__(self, path: GripperPath, line: Waypoints, tracker: Tracker) -> None:
         self._path, self._line, self._tracker = path, line, tracker
         deep = np.flatnonzero(line.poses[:, 0] >= MOUTH_ZONE)
         deepest = int(line.poses[:, 0].argmax())
-        self._gate, self._last = (int(deep[0]), int(deep[-1])) if len(deep) else (deepest, deepest)
+        self.gate, self._last = (int(deep[0]), int(deep[-1])) if len(deep) else (deepest, deepest)
+        self.deepest = deepest
 
-    @property
-    def entrance(self) -> FloatArray:
-        """The pose ``(3,)`` at the gate, the first behind the mouth zone."""
-        return self._line.poses[self._gate]
-
-    def through(self, posture: FloatArray, yaw: float, stride: int) -> Route | Unreachable:
-        """The route that has joint values at the gate.
+    def through(self, q: FloatArray, anchor: int, yaw: float, stride: int) -> Route | Unreachable:
+        """The route that has given joint values at one of its poses.
 
         Args:
-            posture: The joint values ``(dof,)``.
-            yaw: By how much the gripper is turned against the path while it is in the shelf (rad).
+            q: The joint values ``(dof,)`` for that pose at the path's own yaw.
+            anchor: Row of the pose.
+            yaw: By how much the gripper is turned against the path (rad).
             stride: Every how many of the poses is looked at.
         """
         line = self._line.turned(yaw)
-        q = self._tracker.settled(posture, line.poses[self._gate]) if yaw else posture
-        if q is None:
+        turned = self._tracker.turned(q, line.poses[anchor], yaw)
+        if turned is None:
             return Unreachable(0.0, f"out of reach turned by {np.degrees(yaw):.0f} degrees", 0)
-        inner = self._onwards(line, q, self._gate, stride)
-        if isinstance(inner, Unreachable):
-            return inner
-        before = np.arange(self._gate)
-        before = before[line.poses[before, 0] >= ENTERED_FROM][::-stride]
-        gate, leg = line.poses[self._gate], int(line.legs[self._gate])
-        self._tracker.permit(self._rule(leg))
-        entry = self._tracker.leave(q, line.poses[before], float(gate[0]), stride)
+        onwards = self._onwards(line, turned, anchor, stride)
+        if isinstance(onwards, Unreachable):
+            return onwards
+        back = self._backwards(line, turned, anchor, stride)
+        if isinstance(back, Unreachable):
+            return back
         return Route(
-            np.vstack([entry.joints[::-1], q[None], inner.joints]),
-            np.vstack([entry.poses[::-1], gate[None], inner.poses]),
-            np.concatenate([np.full(len(entry.joints) + 1, leg), inner.legs]),
+            np.vstack([back.joints[::-1], turned[None], onwards.joints]),
+            np.vstack([back.poses[::-1], line.poses[anchor][None], onwards.poses]),
+            np.concatenate([back.legs[::-1], line.legs[anchor : anchor + 1], onwards.legs]),
         )
 
     def onwards(self, q: FloatArray) -> Route | Unreachable:
@@ -110,6 +109,27 @@ class Router:
                 if not self._is_out(track, leg):
                     return self._unreachable(track, int(looked_at[len(track.joints)]))
                 break
+        return self._joined(tracks, rows, len(q))
+
+    def _backwards(self, line: Waypoints, q: FloatArray, begin: int, stride: int) -> Route | Unreachable:
+        """From joint values at one of the poses, which is not among the route's, to the path's beginning."""
+        tracks, rows = [], []
+        inside = np.arange(begin - 1, self.gate - 1, -1)
+        for leg, stretch in groupby(inside.tolist(), lambda row: int(self._line.legs[row + 1])):
+            looked_at = _thinned(np.array(list(stretch)), stride)
+            self._tracker.permit(self._rule(leg))
+            track = self._tracker.follow(q, line.poses[looked_at], stride)
+            if not track.complete:
+                return self._unreachable(track, int(looked_at[len(track.joints)]))
+            tracks.append(track)
+            rows.append(looked_at)
+            q = track.joints[-1]
+        outside = np.arange(min(begin, self.gate))
+        outside = outside[line.poses[outside, 0] >= ENTERED_FROM][::-stride]
+        self._tracker.permit(self._rule(0))
+        entry = self._tracker.leave(q, line.poses[outside], float(line.poses[min(begin, self.gate), 0]), stride)
+        tracks.append(entry)
+        rows.append(outside[: len(entry.joints)])
         return self._joined(tracks, rows, len(q))
 
     def _stretches(self, begin: int) -> Iterator[tuple[int, IntArray]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -18,8 +19,10 @@ MOUTH_ZONE = 0.05
 TURNS = tuple(np.radians([0.0, -15.0, -30.0, -45.0, 15.0, 30.0, 45.0]).tolist())
 """How far it may do so on the way out (rad), tried in this order: none at first, all after ``MOUTH_ZONE`` of depth."""
 
-SETTLING = 4
-"""Improvements of a posture at one pose."""
+SETTLING = 2
+"""Improvements of a posture at each pose as the gripper turns on the spot."""
+TURN_STEP = math.radians(5.0)
+"""Between these poses (rad)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,9 +100,16 @@ class Tracker:
             done.append(pose)
         return _track(q, joints, done, "")
 
-    def settled(self, q: FloatArray, pose: FloatArray) -> FloatArray | None:
-        """Joint values ``(dof,)`` for a pose ``(3,)`` close to that of ``q``, or None."""
-        return self._follower.improved(q, self.target(pose), pose, SETTLING)
+    def turned(self, q: FloatArray, pose: FloatArray, yaw: float) -> FloatArray | None:
+        """Joint values ``(dof,)`` for a pose ``(3,)`` from those for the same, turned back by a yaw (rad), or None."""
+        steps = math.ceil(abs(yaw) / TURN_STEP - 1e-9)
+        poses = [pose - (0.0, 0.0, yaw * (1.0 - step / steps)) for step in range(1, steps + 1)]
+        for each in poses:
+            found = self._follower.improved(q, self.target(each), each, SETTLING)
+            if found is None:
+                return None
+            q = found
+        return q
 
     def leave(self, q: FloatArray, poses: FloatArray, begin: float, stride: int) -> Track:
         """From joint values outwards through poses ``(k, 3)``, turning away from their yaw where that helps.
