@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
-from itertools import chain, cycle, islice
+from collections.abc import Iterable, Iterator
+from itertools import cycle, islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -140,17 +140,23 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         """The way to where a path's route begins, and the route: the first that is narrow, else the narrowest."""
         best: tuple[float, FloatArray, Route] | None = None
         failed: list[tuple[Unreachable, Anchored]] = []
-        postures = self._postures(router, line, begin, attempts, rng)
-        for route, anchored in self._routes(router, postures, attempts, failed):
-            excess = self._excess(route)
-            if best is not None and excess >= best[0]:
-                continue
-            way = self._free_way(begin, route.joints[0], rng)
-            if way is None:
-                failed.append((UNAPPROACHABLE, anchored))
-                continue
-            best = excess, way, route
-            if excess <= WIDE or time.monotonic() > until:
+        for stage in (
+            lambda: self._routes(router, self._known_postures(router, line, begin), failed),
+            lambda: self._turned_routes(router, failed),
+            lambda: self._routes(router, islice(self._chance_postures(router, line, attempts, rng), attempts), failed),
+        ):
+            for route, anchored in stage():
+                excess = self._excess(route)
+                if best is not None and excess >= best[0]:
+                    continue
+                way = self._free_way(begin, route.joints[0], rng)
+                if way is None:
+                    failed.append((UNAPPROACHABLE, anchored))
+                    continue
+                best = excess, way, route
+                if excess <= WIDE or time.monotonic() > until:
+                    break
+            if best is not None or time.monotonic() > until:
                 break
         if best is None:
             return max((end for end, _ in failed), key=lambda end: end.where, default=OUT_OF_REACH)
@@ -158,25 +164,21 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         return self._scheduler.trajectory([*free_way(best[1], opening, first), *legs_of(best[2], path, first)])
 
     def _routes(
-        self,
-        router: Router,
-        postures: Iterator[Anchored],
-        attempts: int,
-        failed: list[tuple[Unreachable, Anchored]],
+        self, router: Router, postures: Iterable[Anchored], failed: list[tuple[Unreachable, Anchored]]
     ) -> Iterator[tuple[Route, Anchored]]:
-        """Routes through different postures; where there is none at the path's own yaw, turned against it."""
-        any_found = False
-        for anchored in islice(postures, attempts):
+        """Routes through different postures, at the path's own yaw."""
+        for anchored in postures:
             route = self._route(router, anchored, 0.0)
             if isinstance(route, Unreachable):
                 failed.append((route, anchored))
             else:
-                any_found = True
                 yield route, anchored
-        if any_found:
-            return
-        farthest = sorted(failed, key=lambda one: -one[0].where)[:TURNED]
-        for ending, anchored in farthest:
+
+    def _turned_routes(
+        self, router: Router, failed: list[tuple[Unreachable, Anchored]]
+    ) -> Iterator[tuple[Route, Anchored]]:
+        """Routes turned against the path, through the postures that got farthest without that."""
+        for ending, anchored in sorted(failed, key=lambda one: -one[0].where)[:TURNED]:
             for yaw in _turns(ending):
                 route = self._route(router, anchored, yaw)
                 if isinstance(route, Route):
@@ -188,16 +190,23 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         rough = router.through(q, row, yaw, ROUGHLY)
         return rough if isinstance(rough, Unreachable) else router.through(q, row, yaw, 1)
 
-    def _postures(
-        self, router: Router, line: Waypoints, begin: FloatArray, attempts: int, rng: np.random.Generator
+    def _known_postures(self, router: Router, line: Waypoints, begin: FloatArray) -> Iterator[Anchored]:
+        """At the gate: near the described ones, where the arm is, and home."""
+        seeds = [*map(np.array, self._described.postures), begin, self.arm.home]
+        return self._postures(line, ((seed, router.gate) for seed in seeds))
+
+    def _chance_postures(
+        self, router: Router, line: Waypoints, attempts: int, rng: np.random.Generator
     ) -> Iterator[Anchored]:
-        """Different joint values for one of the line's poses: from where the arm is, from described ones, by chance."""
-        lower, upper = self._kinematics.lower, self._kinematics.upper
-        seeds = [(seed, router.gate) for seed in (begin, self.arm.home, *map(np.array, self._described.postures))]
+        """By chance, at the gate and where the path is deepest."""
         rows = cycle((router.deepest, router.gate))
-        by_chance = ((rng.uniform(lower, upper), next(rows)) for _ in range(DESCENTS * attempts))
+        lower, upper = self._kinematics.lower, self._kinematics.upper
+        return self._postures(line, ((rng.uniform(lower, upper), next(rows)) for _ in range(DESCENTS * attempts)))
+
+    def _postures(self, line: Waypoints, seeds: Iterable[Anchored]) -> Iterator[Anchored]:
+        """Different postures for poses of the line, by descent from seeds, at their best."""
         found: list[Anchored] = []
-        for seed, row in chain(seeds, by_chance):
+        for seed, row in seeds:
             pose = line.poses[row]
             q = self._kinematics.descend(self._in_base(pose), seed)
             if q is None or any(at == row and float(np.abs(q - other).max()) < ALIKE for other, at in found):

@@ -15,6 +15,8 @@ WALL_ROOM = 0.02
 """Wished for between the arm and the shelf (m)."""
 WIDTH_ROOM = 0.005
 """By how much the arm should be narrower than it is described (m)."""
+WALL_WEIGHT = 2.0
+"""What a lack of that room counts, against as much too wide."""
 LIMIT_SHARE = 0.85
 """Of a joint's range, about its middle: to be kept to."""
 LIMIT_WEIGHT, CENTER_WEIGHT = 0.3, 0.003
@@ -89,4 +91,4 @@ class Posture:
         signs, axes = (-1.0, 1.0, -1.0, 1.0), (2, 2, 1, 1)
         lacking = np.array([np.where(near, np.maximum(WALL_ROOM - room, 0.0), 0.0) for room in rooms])
         slopes = np.array([sign * speeds[:, axis] for sign, axis in zip(signs, axes, strict=True)])
-        return lacking.ravel(), np.where(lacking > 0.0, slopes, 0.0).ravel()
+        return WALL_WEIGHT * lacking.ravel(), WALL_WEIGHT * np.where(lacking > 0.0, slopes, 0.0).ravel()

@@ -41,6 +41,7 @@ def _description(side: Side) -> ArmDescription:
         home=figures.HOME if left else mirrored(figures.HOME),
         shelf=Stand(at=(x, y if left else -y, z)),
         height=figures.GRIPPER_HEIGHT,
+        postures=tuple(q if left else mirrored(q) for q in figures.POSTURES),
         force_limit=figures.FORCE_LIMIT,
         behind=(Section(part="forearm", widths=figures.WIDTHS, bottom=-half, top=half),),
         overlapping=tuple((a.format(side=arm), b.format(side=arm)) for arm in SIDES for a, b in figures.OVERLAPPING),
