@@ -14,7 +14,7 @@ from phframe.core import FloatArray, GripperPath, IntArray, Phase, PhaseRule, Un
 
 OUTSIDE = -0.02
 """The fingertip has left the shelf when it is farther out than this (m)."""
-WITHDRAWN = -0.05
+WITHDRAWN = -0.04
 """With something in the hand, farther than this (m)."""
 ENTERED_FROM = -0.03
 """Farther out than this (m), the fingertip need not follow a path before it goes in."""
