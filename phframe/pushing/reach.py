@@ -130,7 +130,7 @@ class _Reach:
         """Mask ``(n,)`` of the objects that the arm would touch on its way in."""
         local = (self._state.positions - self._tip) @ turn(self._yaw)
         lower, upper = self._boxes
-        distance = _distance(local, lower, upper, self._length).min(axis=0)
+        distance = distances_on_way_in(local, lower, upper, self._length).min(axis=0)
         distance[self._scene.target_index] = np.inf
         return np.asarray((distance < self._scene.radii + NEIGHBOUR_CLEARANCE) & self._state.on_board)
 
@@ -149,7 +149,7 @@ class _Reach:
         return Action(f"grasp {self._scene.target}", path, (self._scene.target,))
 
 
-def _distance(points: FloatArray, lower: FloatArray, upper: FloatArray, length: float) -> FloatArray:
+def distances_on_way_in(points: FloatArray, lower: FloatArray, upper: FloatArray, length: float) -> FloatArray:
     """Distances ``(m, n)`` of points from the regions that parts of the arm cover on a straight way in of a length (m).
 
     A region is bounded by the box around the part, drawn back along the way: parts are convex and narrow ahead, so the

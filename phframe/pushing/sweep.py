@@ -47,12 +47,15 @@ class SweepGeometry:
         direction = self._direction()
         other: Direction = -1 if direction == 1 else 1
         second_best: list[Push] = []
+        third_best: list[Push] = []
         for way, choices in ((direction, ()), (other, (self._why_other(other),))):
             pushes = list(_until_one_clears(self._tilted(way, choices)))
-            if pushes and pushes[-1].clears:
+            if pushes and _is_best(pushes[-1]):
                 yield pushes[-1]
-            second_best += [push for push in pushes[:1] if not push.clears]
-        for push in second_best:
+            second_best += [push for push in pushes if push.clears and push.rams][:1]
+            third_best += [push for push in pushes[:1] if not push.clears]
+        yield from second_best
+        for push in third_best:
             yield replace(push, choices=(*push.choices, Choice.NOT_CLEARING))
 
     def _tilted(self, direction: Direction, choices: Choices) -> Iterator[Push]:
@@ -101,5 +104,9 @@ class SweepGeometry:
 def _until_one_clears(pushes: Iterator[Push]) -> Iterator[Push]:
     for push in pushes:
         yield push
-        if push.clears:
+        if _is_best(push):
             return
+
+
+def _is_best(push: Push) -> bool:
+    return push.clears and not push.rams

@@ -8,9 +8,10 @@ from typing import Literal
 
 import numpy as np
 
-from phframe.core import MOUTH_CLEARANCE, Corridor, FloatArray, Rectangle, Sweep
+from phframe.core import MOUTH_CLEARANCE, Corridor, FloatArray, Rectangle, Sweep, turn
 from phframe.pushing.arm_view import ArmView
 from phframe.pushing.choice import Choice
+from phframe.pushing.reach import distances_on_way_in
 
 Direction = Literal[1, -1]
 Choices = tuple[str, ...]
@@ -23,6 +24,8 @@ ENGAGEMENT = 0.9
 """A fingertip short of a centre by more than this many radii slips off ahead of it."""
 ROUNDING = 1e-6
 """Kept from every limit (m), so that no answer hangs on rounding."""
+HEAD_ON = 0.5
+"""An arm that comes nearer to a centre than this many radii pushes what it meets ahead of it."""
 SHORTEST_SWEEP = 1e-3
 """A sweep shorter than this (m) moves nothing."""
 EDGE_SURPLUS = 1e-3
@@ -37,11 +40,13 @@ class Push:
         sweep: The push.
         choices: By name.
         clears: Whether everything pushed ends outside the corridor.
+        rams: Whether the arm, on its way in, meets something head-on that it is to push sideways.
     """
 
     sweep: Sweep
     choices: Choices
     clears: bool
+    rams: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,6 +92,7 @@ class TiltedSweep:
         self._arm = view.silhouette(tilt)
         self._front = view.silhouette(corridor.angle + tilt).front
         self._walls = view.walls(corridor.angle + tilt)
+        self._boxes = view.boxes
 
     def push(self, choices: Choices) -> Push | None:
         """The sweep to the rectangle's far edge, or as far as the target allows; None where nothing would be touched.
@@ -118,7 +124,15 @@ class TiltedSweep:
         clamped = [(lane, wanted[0], Choice.LANE_CLAMPED), (end, wanted[1], Choice.SWEEP_CLAMPED)]
         settled = (*choices, *(choice for value, wish, choice in clamped if value != wish))
         sweep = self._with_ways(depth, lane, end)
-        return None if sweep is None else Push(sweep, settled, self._clears(sweep, sides))
+        return None if sweep is None else Push(sweep, settled, self._clears(sweep, sides), self._rams(sweep))
+
+    def _rams(self, sweep: Sweep) -> bool:
+        """Whether the straight way in leads through the middle of a member, which then goes deeper, not aside."""
+        tip = np.array([sweep.depth, sweep.lane])
+        local = (self._component.centers - tip) @ turn(self._tilt)
+        lower, upper = self._boxes
+        distances = distances_on_way_in(local, lower, upper, sweep.entry)
+        return bool((distances < HEAD_ON * self._component.radius).any())
 
     def _lane(self, depth: float) -> float:
         """Beside the rectangle, on the side away from the push."""
