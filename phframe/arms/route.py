@@ -9,7 +9,7 @@ from itertools import groupby
 import numpy as np
 
 from phframe.arms.track import MOUTH_ZONE, Track, Tracker
-from phframe.arms.waypoints import Waypoints
+from phframe.arms.waypoints import SPACING, Waypoints
 from phframe.core import FloatArray, GripperPath, IntArray, Phase, PhaseRule, Unreachable
 
 OUTSIDE = -0.02
@@ -106,7 +106,7 @@ class Router:
             rows.append(looked_at[: len(track.joints)])
             q = track.joints[-1] if len(track.joints) else q
             if not track.complete:
-                if not self._is_out(track, leg):
+                if not self._is_out(track, leg, stride):
                     return self._unreachable(track, int(looked_at[len(track.joints)]))
                 break
         return self._joined(tracks, rows, len(q))
@@ -141,9 +141,10 @@ class Router:
     def _rule(self, leg: int) -> PhaseRule:
         return self._path.rules[self._path.phases[leg]]
 
-    def _is_out(self, track: Track, leg: int) -> bool:
-        """Whether a leg that ends early has led far enough out of the shelf."""
+    def _is_out(self, track: Track, leg: int, stride: int) -> bool:
+        """Whether a leg that ends early has led far enough out of the shelf, as far as one can tell."""
         enough = WITHDRAWN if self._path.phases[leg] is Phase.WITHDRAW else OUTSIDE
+        enough += (stride - 1) * SPACING
         return bool(len(track.poses)) and float(track.poses[-1, 0]) <= enough
 
     def _unreachable(self, track: Track, row: int) -> Unreachable:
