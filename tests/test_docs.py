@@ -14,6 +14,7 @@ import typer
 
 import phframe
 from phframe import testing
+from phframe.cli.export_formats import FORMATS
 from phframe.cli.main import app
 from phframe.cli.option_list import describe
 from phframe.cli.options import parse_options
@@ -146,6 +147,10 @@ def check_phframe(words: list[str]) -> None:
         given = dict(context.params)
     if words[0] == "solve":
         check_request(given)
+    elif words[0] == "export":
+        assert given["format_name"] is None or given["format_name"] in FORMATS
+        assert given["arm"] is None or load(Kind.ARM, given["arm"])
+        assert given["what"].startswith("runs/") or find_scene(given["what"]) is not None
     elif given["name"] is not None:
         kind = {"scenes": Kind.SCENES, "topology": Kind.TOPOLOGY}.get(words[0])
         describe(kind or Kind(words[0].removesuffix("s")), given["name"])

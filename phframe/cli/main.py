@@ -9,6 +9,7 @@ import typer
 from phframe.cli import listings
 from phframe.cli.console import emit
 from phframe.cli.exit_codes import ExitCode
+from phframe.cli.export import export
 from phframe.cli.group import CommandGroup
 from phframe.cli.solve import solve
 
@@ -23,6 +24,7 @@ app = typer.Typer(
 app.command("solve", epilog="Example: phframe solve papallas/s01 --planner ooa --option margin=0.02 --no-rerun --json")(
     solve
 )
+app.command("export", epilog="Example: phframe export vieira/basic --arm planar --out basic.xml")(export)
 listings.add_to(app)
 
 

@@ -36,7 +36,7 @@ def test_help_imports_nothing_heavy() -> None:
 
 def test_every_command_and_option_says_what_it_is(invoke: Invoke) -> None:
     top = invoke("--help").stdout
-    for name in ("solve", "scenes", "planners", "backends", "arms", "topology"):
+    for name in ("solve", "export", "scenes", "planners", "backends", "arms", "topology"):
         assert name in top
         help_text = invoke(name, "--help").stdout
         assert "Example: phframe" in help_text
