@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from phframe.arms.description import ArmDescription, Section, TipFrame, read_description
 from phframe.arms.outlines import gripper_outlines
 from phframe.arms.pinocchio_ import Kinematics
+from phframe.arms.reach import share_served
 from phframe.arms.robot import with_frame
 from phframe.arms.urdf_reader import Robot, read_robot
 from phframe.core import (
@@ -117,6 +118,12 @@ class ArticulatedArm(ArmModel[OptionsT]):
         stand = self.description.shelf
         x, y = -turn(-stand.yaw) @ np.array(stand.at[:2])
         return Mount(float(x), shelf.width / 2.0 + float(y), -stand.at[2], 0.0 - stand.yaw)
+
+    def share_served(self, shelf: Shelf, mount: Mount) -> float:
+        """By descent from the pose beside alone."""
+        return share_served(
+            shelf, self, mount, lambda pose, seed: self.kinematics.descend(pose, self.home if seed is None else seed)
+        )
 
     @cached_property
     def kinematics(self) -> Kinematics:

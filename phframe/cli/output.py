@@ -37,9 +37,14 @@ class Output:
         if self._path is None:
             emit(text.rstrip("\n"))
             return
+        self.write_bytes(text.encode())
+
+    def write_bytes(self, content: bytes) -> None:
+        """Write the whole file, or nothing."""
+        assert self._path is not None, "bytes are for files"
         from phframe.runtime.files import write_whole
 
-        write_whole(self._path, text)
+        write_whole(self._path, content)
         note(f"wrote {self._path}")
 
     def write_folder(self, files: Mapping[str, str]) -> None:
