@@ -154,6 +154,8 @@ def check_phframe(words: list[str]) -> None:
         assert given["format_name"] is None or given["format_name"] in FORMATS
         assert given["arm"] is None or load(Kind.ARM, given["arm"])
         assert given["what"].startswith("runs/") or find_scene(given["what"]) is not None
+    elif words[0] == "scene":
+        assert given["file"].endswith(".xml")
     elif words[0] == "arm":
         assert load(Kind.ARM, given["arm"])
         assert find_scene(given["scene"]) is not None

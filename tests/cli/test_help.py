@@ -41,6 +41,9 @@ def test_every_command_and_option_says_what_it_is(invoke: Invoke) -> None:
         help_text = invoke(name, "--help").stdout
         assert "Example: phframe" in help_text
     assert "Example: phframe solve vieira/basic" in top
+    for group, name in (("arm", "reach"), ("scene", "import")):
+        assert name in invoke(group, "--help").stdout
+        assert f"Example: phframe {group} {name}" in invoke(group, name, "--help").stdout
 
 
 def test_solve_help_gives_units_and_defaults(invoke: Invoke) -> None:
