@@ -55,8 +55,9 @@ def read_mjcf(path: str | Path) -> ForeignScene:
         raise SceneError(
             f"gravity is {model.opt.gravity.tolist()}; it must point along -z, as shelves stand upright", source
         )
-    if not (np.isfinite(data.geom_xpos).all() and np.isfinite(data.geom_xmat).all()):
-        raise SceneError("it holds positions that are not finite numbers", source)
+    figures = (data.geom_xpos, data.geom_xmat, model.geom_size, model.geom_friction, model.body_subtreemass)
+    if not all(np.isfinite(array).all() for array in figures):
+        raise SceneError("it holds places, sizes, masses or frictions that are not finite numbers", source)
     return _Reading(model, data, lost).scene()
 
 

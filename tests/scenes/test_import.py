@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from phframe.core import PhframeError, Scene, SceneError, UnknownNameError, turn
 from phframe.runtime.scenes import find_scene, scene_names
+from phframe.scenes import parse_scene, scene_to_yaml
 from phframe.scenes.importer import Imported, to_scene
 from phframe.scenes.mjcf import body_names, scene_to_mjcf
 from tests.scenes.test_mjcf import ODD
@@ -188,6 +192,7 @@ BAD = {
     "no mouth": (shelf_text(more=BACK + FRONT), "walls on 4 of four sides"),
     "nothing on the board": (shelf_text(a=1.0), "none of the 1 free bodies stands"),
     "what lies": (shelf_text(geom='euler="90 0 0"'), "none of the 0 free bodies"),
+    "an endless size": (shelf_text(more=BACK.replace("0.01 0.3 0.2", "0.01 0.3 inf")), "not finite"),
     "a size that is none": (shelf_text(geom='density="nan"'), ""),
     "an object in a wall": (shelf_text().replace('pos="0.1 0.1', 'pos="0.1 0.29'), "inside the north wall"),
     "gravity sideways": (shelf_text().replace("<worldbody>", '<option gravity="9 0 0"/><worldbody>'), "gravity"),
@@ -224,3 +229,22 @@ def test_what_cannot_be_read_is_refused(path: str) -> None:
     with pytest.raises(PhframeError) as caught:
         read_mjcf(path)
     assert "\n" not in str(caught.value)
+
+
+@settings(max_examples=80, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    data=st.data(), wrong=st.sampled_from(["nan", "inf", "-1", "0", "1e300", "1e-300", "", "x", "1 2 3 4 5 6 7", "&"])
+)
+def test_whatever_is_wrong_in_a_file_it_is_imported_or_refused(
+    imported: Import, data: st.DataObject, wrong: str
+) -> None:
+    text = FOREIGN.read_text()
+    value = data.draw(st.sampled_from(list(re.finditer(r'(?<==")[^"]*', text))))
+    start, end = data.draw(st.sampled_from([each.span() for each in re.finditer(r"\S+", value.group())]))
+    place = value.start()
+    try:
+        back = imported(text[: place + start] + wrong + text[place + end :])
+    except PhframeError as error:
+        assert "\n" not in str(error)  # noqa: PT017 - either is right
+    else:
+        assert parse_scene(scene_to_yaml(back.scene)) == back.scene
