@@ -14,6 +14,7 @@ import typer
 
 import phframe
 from phframe import testing
+from phframe.cli.export_formats import FORMATS
 from phframe.cli.main import app
 from phframe.cli.option_list import describe
 from phframe.cli.options import parse_options
@@ -142,11 +143,23 @@ def check_phframe(words: list[str]) -> None:
     if words[0].startswith("-"):
         assert words[0] in {spelling for parameter in top.params for spelling in parameter.opts}
         return
-    with top.commands[words[0]].make_context(words[0], list(words[1:])) as context:
+    command, rest = top.commands[words[0]], words[1:]
+    while hasattr(command, "commands"):
+        command, rest = command.commands[rest[0]], rest[1:]
+    with command.make_context(words[0], list(rest)) as context:
         given = dict(context.params)
     if words[0] == "solve":
         check_request(given)
-    elif given["name"] is not None:
+    elif words[0] == "export":
+        assert given["format_name"] is None or given["format_name"] in FORMATS
+        assert given["arm"] is None or load(Kind.ARM, given["arm"])
+        assert given["what"].startswith("runs/") or find_scene(given["what"]) is not None
+    elif words[0] == "scene":
+        assert given["file"].endswith(".xml")
+    elif words[0] == "arm":
+        assert load(Kind.ARM, given["arm"])
+        assert find_scene(given["scene"]) is not None
+    elif given.get("name") is not None:
         kind = {"scenes": Kind.SCENES, "topology": Kind.TOPOLOGY}.get(words[0])
         describe(kind or Kind(words[0].removesuffix("s")), given["name"])
 

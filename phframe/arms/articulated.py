@@ -16,6 +16,7 @@ from phframe.arms.articulated_options import ArticulatedOptions
 from phframe.arms.description import ArmDescription, Section, TipFrame, read_description
 from phframe.arms.outlines import gripper_outlines
 from phframe.arms.pinocchio_ import Kinematics
+from phframe.arms.reach import share_served
 from phframe.arms.robot import with_frame
 from phframe.arms.urdf_reader import Robot, read_robot
 from phframe.core import (
@@ -130,6 +131,12 @@ class ArticulatedArm(ArmModel[OptionsT]):
         from phframe.arms.articulated_motion import ArticulatedMotionPlanner
 
         return ArticulatedMotionPlanner(scene, self, mount, self.options)
+
+    def share_served(self, shelf: Shelf, mount: Mount) -> float:
+        """By descent from the pose beside alone."""
+        return share_served(
+            shelf, self, mount, lambda pose, seed: self.kinematics.descend(pose, self.home if seed is None else seed)
+        )
 
     @cached_property
     def kinematics(self) -> Kinematics:

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from phframe.core import ArmModel, FloatArray, Mount, Outline, Scene, compose, inverse, planar_pose, turn
+from phframe.core import ArmModel, FloatArray, Mount, Outline, Scene, Shelf, compose, inverse, planar_pose, turn
 from phframe.core.value import Floats, Value
 
 SPACING = 0.025
 """Of the grid of fingertip positions (m)."""
+COARSE_SPACING = 0.11
+"""Of the grid for a quick answer (m): some 25 positions."""
 INSET = 0.05
 """Kept between the grid and mouth, walls and back (m): less than a gripper's half-width."""
 YAWS = tuple(math.radians(degrees) for degrees in (0, 15, -15, 30, -30))
 """Of the gripper (rad), tried in this order."""
+Solve = Callable[[FloatArray, FloatArray | None], FloatArray | None]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,7 +60,23 @@ def reachability(scene: Scene, arm: ArmModel[Any], mount: Mount, spacing: float 
         mount: Where its base stands.
         spacing: Of the positions tried (m).
     """
-    shelf, base = scene.shelf, inverse(mount.pose)
+    return _reachability(scene.shelf, arm, mount, spacing, arm.inverse)
+
+
+def share_served(shelf: Shelf, arm: ArmModel[Any], mount: Mount, solve: Solve) -> float:
+    """The same share as ``share_reachable``, on a coarse grid and with an inverse that may give up early: quickly.
+
+    Args:
+        shelf: The shelf.
+        arm: The arm.
+        mount: Where its base stands.
+        solve: Joint values for a pose ``(7,)`` in the frame of the base, near others or near none; None: not found.
+    """
+    return _reachability(shelf, arm, mount, COARSE_SPACING, solve).share
+
+
+def _reachability(shelf: Shelf, arm: ArmModel[Any], mount: Mount, spacing: float, solve: Solve) -> Reachability:
+    base = inverse(mount.pose)
     depths, widths = _positions(shelf.depth, spacing), _positions(shelf.width, spacing)
     yaws = np.full((len(widths), len(depths)), np.inf)
     found: dict[tuple[int, int], FloatArray] = {}
@@ -65,7 +84,7 @@ def reachability(scene: Scene, arm: ArmModel[Any], mount: Mount, spacing: float 
         for column, x in enumerate(depths.tolist()):
             for yaw in (yaw for yaw in YAWS if _fits(arm.shape.closed, x, y, yaw, shelf.width)):
                 pose = compose(base, planar_pose(x, y, arm.shape.height, yaw))
-                q = arm.inverse(pose, _neighbour(found, row, column))
+                q = solve(pose, _neighbour(found, row, column))
                 if q is not None:
                     yaws[row, column], found[row, column] = yaw, q
                     break

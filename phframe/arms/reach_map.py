@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from phframe.arms.reach import Reachability
+from phframe.arms.reach import YAWS, Reachability
 from phframe.core import Scene
+
+SIZE, DOTS = (6.4, 6.4), 120
+"""Of the picture: inches, and dots per inch."""
+COLOURS = "#1f6f3f", "#6cb36c", "#c9dd7a"
+"""Of cells that are reached straight, and with more and more yaw."""
+BEYOND, TARGET, OBJECT = "#e5b5ae", "#d62728", "#3b4a63"
 
 
 def draw_reach(reach: Reachability, scene: Scene, title: str, path: Path) -> None:
@@ -16,28 +24,93 @@ def draw_reach(reach: Reachability, scene: Scene, title: str, path: Path) -> Non
     Args:
         reach: What is reached.
         scene: The shelf and its objects.
-        title: Above the map.
+        title: Above the map; the share is put after it.
         path: The PNG file to write.
     """
+    path.write_bytes(reach_picture(reach, scene, title))
+
+
+def reach_picture(reach: Reachability, scene: Scene, title: str) -> bytes:
+    """The picture of ``draw_reach`` as the bytes of a PNG file."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
-    from matplotlib.patches import Circle, Rectangle
 
-    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
+    figure = Figure(figsize=SIZE, layout="constrained")
     FigureCanvasAgg(figure)
-    axes = figure.add_subplot(title=f"{title}: {reach.share:.1%} of the shelf", xlabel="depth (m)", ylabel="y (m)")
-    depths, widths = np.meshgrid(reach.depths, reach.widths)
-    known = np.isfinite(reach.yaws)
-    least = np.degrees(np.abs(reach.yaws[known]))
-    marks = axes.scatter(depths[known], widths[known], s=30, c=least, marker="s", cmap="viridis_r", vmin=0.0, vmax=30.0)
-    axes.scatter(depths[~known], widths[~known], s=20, c="crimson", marker="x", label="out of reach")
-    figure.colorbar(marks, ax=axes, label="least yaw of the gripper (degrees)")
-    for item in scene.objects:
-        colour = "tab:orange" if item.id == scene.target else "black"
-        axes.add_patch(Circle(item.position, item.radius, fill=False, color=colour, linewidth=1.5))
-    axes.add_patch(Rectangle((0.0, 0.0), scene.shelf.depth, scene.shelf.width, fill=False))
-    if not known.all():
-        axes.legend(loc="upper left")
+    axes = figure.add_subplot(xlabel="depth x (m), mouth on the left", ylabel="y (m), south wall below")
+    axes.set_title(f"{title}: {reach.share:.1%} of the shelf within reach", fontsize=11)
+    _draw_cells(axes, reach)
+    _draw_shelf(axes, scene)
+    _draw_objects(axes, scene)
     axes.set_aspect("equal")
-    axes.autoscale_view()
-    figure.savefig(path, dpi=120)
+    axes.set_xlim(-0.06, scene.shelf.depth + 0.03)
+    axes.set_ylim(-0.03, scene.shelf.width + 0.03)
+    figure.legend(handles=_legend(reach), loc="outside lower center", ncols=3, frameon=False, fontsize=9)
+    content = io.BytesIO()
+    figure.savefig(content, dpi=DOTS, format="png")
+    return content.getvalue()
+
+
+def _levels(reach: Reachability) -> Any:
+    """For every cell the number of its colour; that of the last one where it is not reached."""
+    sizes = sorted({abs(yaw) for yaw in YAWS})
+    levels = np.searchsorted(np.array(sizes) + 1e-9, np.abs(reach.yaws))
+    return np.where(np.isfinite(reach.yaws), levels, len(sizes))
+
+
+def _draw_cells(axes: Any, reach: Reachability) -> None:
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+
+    colours = [*COLOURS, BEYOND]
+    norm = BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours))
+    axes.pcolormesh(
+        _edges(reach.depths),
+        _edges(reach.widths),
+        _levels(reach),
+        cmap=ListedColormap(colours),
+        norm=norm,
+        edgecolors="white",
+        linewidth=0.4,
+    )
+
+
+def _edges(centers: Any) -> Any:
+    """Where cells around evenly spaced centres begin and end."""
+    step = centers[1] - centers[0] if len(centers) > 1 else 0.05
+    return np.concatenate([centers - step / 2.0, centers[-1:] + step / 2.0])
+
+
+def _draw_shelf(axes: Any, scene: Scene) -> None:
+    depth, width = scene.shelf.depth, scene.shelf.width
+    axes.plot([0.0, depth, depth, 0.0], [0.0, 0.0, width, width], color="#5a4632", linewidth=4.0, zorder=4)
+    axes.plot([0.0, 0.0], [0.0, width], color="#5a4632", linewidth=1.0, linestyle=(0, (5, 4)), zorder=4)
+    axes.annotate(
+        "", xy=(-0.005, width / 2.0), xytext=(-0.05, width / 2.0), arrowprops={"arrowstyle": "-|>", "color": "#5a4632"}
+    )
+
+
+def _draw_objects(axes: Any, scene: Scene) -> None:
+    from matplotlib.patches import Circle
+
+    for item in scene.objects:
+        colour = TARGET if item.id == scene.target else OBJECT
+        axes.add_patch(
+            Circle(item.position, item.radius, facecolor=(1.0, 1.0, 1.0, 0.45), edgecolor=colour, lw=2, zorder=5)
+        )
+    x, y = scene.objects[scene.target_index].position
+    axes.plot(x, y, marker="x", color=TARGET, zorder=6)
+
+
+def _legend(reach: Reachability) -> list[Any]:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    sizes = np.degrees(sorted({abs(yaw) for yaw in YAWS}))
+    texts = ["reached straight" if size == 0.0 else f"at ±{size:.0f}° yaw" for size in sizes]
+    cells = [Patch(color=colour, label=text) for colour, text in zip(COLOURS, texts, strict=True)]
+    if not np.isfinite(reach.yaws).all():
+        cells.append(Patch(color=BEYOND, label="out of reach"))
+    return cells + [
+        Line2D([], [], marker="o", ls="", ms=9, mfc="none", mec=colour, label=text)
+        for colour, text in ((TARGET, "target"), (OBJECT, "other objects"))
+    ]

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import typer
 
+from phframe.cli.export_formats import FORMATS
 from phframe.cli.options import PARTS
 
 Offer = list[tuple[str, str]]
@@ -33,6 +34,16 @@ def scenes(incomplete: str) -> Offer:
     return _quietly(_scene_names, incomplete)
 
 
+def scenes_and_runs(incomplete: str) -> Offer:
+    """Scenes, and the directories of runs."""
+    return [*_quietly(_runs, incomplete), *scenes(incomplete)]
+
+
+def export_formats(incomplete: str) -> Offer:
+    """What ``phframe export`` writes."""
+    return _quietly(lambda: [(form.name, form.what) for form in FORMATS.values()], incomplete)
+
+
 def options(context: typer.Context, incomplete: str) -> Offer:
     """The options of the planner given, and with a prefix those of the other parts."""
     return _quietly(lambda: _option_keys(context), incomplete)
@@ -57,6 +68,10 @@ def _scene_names() -> Offer:
 
     entries = catalogue().extensions(Kind.SCENES)
     return [(f"{entry.name}/{name}", entry.extension.summary) for entry in entries for name in scene_names(entry)]
+
+
+def _runs() -> Offer:
+    return [(path.parent.as_posix(), "an episode") for path in sorted(Path("runs").glob("*/episode.json"))]
 
 
 def _scene_files(incomplete: str) -> Offer:

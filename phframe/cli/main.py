@@ -6,9 +6,10 @@ from typing import Annotated
 
 import typer
 
-from phframe.cli import listings
+from phframe.cli import arm, listings, scene
 from phframe.cli.console import emit
 from phframe.cli.exit_codes import ExitCode
+from phframe.cli.export import export
 from phframe.cli.group import CommandGroup
 from phframe.cli.solve import solve
 
@@ -23,7 +24,10 @@ app = typer.Typer(
 app.command("solve", epilog="Example: phframe solve papallas/s01 --planner ooa --option margin=0.02 --no-rerun --json")(
     solve
 )
+app.command("export", epilog="Example: phframe export vieira/basic --arm planar --out basic.xml")(export)
 listings.add_to(app)
+app.add_typer(arm.app, name="arm")
+app.add_typer(scene.app, name="scene")
 
 
 @app.callback()

@@ -31,6 +31,23 @@ def parse_options(given: Iterable[str]) -> dict[str, dict[str, str]]:
     return parsed
 
 
+def only_parts(parsed: dict[str, dict[str, str]], *wanted: str) -> dict[str, dict[str, str]]:
+    """The options of some parts.
+
+    Raises:
+        OptionError: If there are options of others.
+    """
+    for part, given in parsed.items():
+        if given and part not in wanted:
+            from phframe.core.errors import OptionError
+
+            key = next(iter(given))
+            raise OptionError(
+                f"there is no {part} here, so no option {key!r} of it; there are options of {' and '.join(wanted)}."
+            )
+    return {part: parsed[part] for part in wanted}
+
+
 def _split(text: str) -> tuple[str, str, str]:
     name, equals, value = (piece.strip() for piece in text.partition("="))
     prefix, dot, key = name.rpartition(".")

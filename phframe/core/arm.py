@@ -192,6 +192,13 @@ class ArmModel(ABC, Generic[OptionsT]):
             "take the backend pymunk, or another arm, such as planar"
         )
 
+    def share_served(self, shelf: Shelf, mount: Mount) -> float | None:
+        """Of a shelf, the share over which the joints can take the fingertip; quickly, so to within a tenth.
+
+        None: not known, and found out pose by pose.
+        """
+        return None
+
     def within_limits(self, q: ArrayLike) -> bool:
         """Whether joint values ``(dof,)`` respect every limit."""
         lower, upper = np.array([[j.lower, j.upper] for j in self.joints]).T

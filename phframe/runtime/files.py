@@ -68,8 +68,8 @@ def _decoded(document: Any, source: Path) -> Plan | Episode:
     return decoded
 
 
-def write_whole(path: Path, text: str) -> Path:
-    """Write a text file so that it is never seen half-written.
+def write_whole(path: Path, content: str | bytes) -> Path:
+    """Write a file so that it is never seen half-written; text as UTF-8.
 
     Raises:
         InputError: If it cannot be written.
@@ -78,8 +78,8 @@ def write_whole(path: Path, text: str) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         try:
-            with os.fdopen(handle, "w", encoding="utf-8") as stream:
-                stream.write(text)
+            with os.fdopen(handle, "wb") as stream:
+                stream.write(content.encode() if isinstance(content, str) else content)
             Path(temporary).chmod(0o644)
             Path(temporary).replace(path)
         except BaseException:

@@ -46,6 +46,8 @@ LEAST_AHEAD = 0.2
 """Cosine of the yaw (rad) beyond which an arm that draws back does not leave the shelf."""
 
 
+LEAST_SERVED = 0.7
+"""Share of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
 LIFT_ATTEMPTS, LIFT_SECONDS = 10, 30.0
 """How often a motion planner may try anew, and for how long (s)."""
 
@@ -109,6 +111,17 @@ class World:
         length = -min(float(outline.vertices[:, 0].min()) for outline in self.arm.shape.closed)
         if length < shelf.depth:
             raise IncompatibleError(f"arm {arm!r} is {length:g} m long, too short for a shelf {shelf.depth:g} m deep")
+        if self._motion_planner is not None:
+            self._refuse_mount()
+
+    def _refuse_mount(self) -> None:
+        """Refuse a mount from which the arm's joints reach too little of the shelf."""
+        share = self.arm.share_served(self.scene.shelf, self.mount)
+        if share is not None and share < LEAST_SERVED:
+            raise IncompatibleError(
+                f"arm {self.spec.arm!r} at its mount {self.mount} reaches {share:.0%} of the shelf, and {LEAST_SERVED:.0%} is "
+                "the least to begin with: give the scene another mount; 'phframe arm reach' draws what one reaches"
+            )
 
     @property
     def plans_motion(self) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.arms.reach import INSET, YAWS, reachability, share_reachable
+from phframe.arms.reach import INSET, YAWS, reachability, share_reachable, share_served
 from phframe.core import Cylinder, Mount, Scene, SceneObject, Shelf
 
 SHELF = Shelf(0.594, 0.584)
@@ -56,6 +56,30 @@ def test_baxter_reaches_its_shelf_and_less_from_farther_away() -> None:
     assert share_reachable(SCENE, arm, mount) > 0.95
     assert share_reachable(SCENE, arm, Mount(mount.x - 0.2, mount.y, mount.z, 0.0)) < 0.8
     assert share_reachable(SCENE, arm, Mount(mount.x - 1.0, mount.y, mount.z, 0.0)) == 0.0
+
+
+@pytest.mark.needs_baxter
+def test_baxters_own_mount_serves_its_shelf_and_a_far_one_does_not() -> None:
+    pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
+    from phframe.runtime.world import LEAST_SERVED
+    from tests.arms.baxter_arm import baxter
+
+    arm = baxter("left")
+    for shelf in (SHELF, Shelf(0.55, 0.61)):
+        own = arm.default_mount(shelf)
+        found = {}
+        for away in (0.0, 0.3, 1.0):
+            mount = Mount(own.x - away, own.y, own.z, own.yaw)
+            found[away] = arm.share_served(shelf, mount)
+            scene = Scene("alone", shelf, SCENE.objects, "can")
+            assert found[away] == pytest.approx(share_reachable(scene, arm, mount), abs=0.12)
+        assert found[0.0] > 0.9 > LEAST_SERVED > 0.55 > found[0.3] > found[1.0] == 0.0
+
+
+def test_an_arm_that_does_not_know_leaves_it_to_be_found_out() -> None:
+    arm = PlanarArm(PlanarArmOptions())
+    assert arm.share_served(SHELF, arm.default_mount(SHELF)) is None
+    assert share_served(SHELF, arm, arm.default_mount(SHELF), arm.inverse) == 1.0
 
 
 def test_the_map_is_a_picture(tmp_path: Path) -> None:

@@ -36,11 +36,14 @@ def test_help_imports_nothing_heavy() -> None:
 
 def test_every_command_and_option_says_what_it_is(invoke: Invoke) -> None:
     top = invoke("--help").stdout
-    for name in ("solve", "scenes", "planners", "backends", "arms", "topology"):
+    for name in ("solve", "export", "scenes", "planners", "backends", "arms", "topology"):
         assert name in top
         help_text = invoke(name, "--help").stdout
         assert "Example: phframe" in help_text
     assert "Example: phframe solve vieira/basic" in top
+    for group, name in (("arm", "reach"), ("scene", "import")):
+        assert name in invoke(group, "--help").stdout
+        assert f"Example: phframe {group} {name}" in invoke(group, name, "--help").stdout
 
 
 def test_solve_help_gives_units_and_defaults(invoke: Invoke) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -139,6 +140,28 @@ def test_a_backend_that_drives_joints_needs_a_motion_planner(monkeypatch: pytest
     monkeypatch.setattr(PlanarArm, "motion_planner", ArmModel.motion_planner)
     with pytest.raises(IncompatibleError, match="no motion planner"):
         PlanningWorld(WorldSpec(BASIC))
+
+
+SERVING = """
+from phframe.arms.planar import PlanarArm
+from phframe.arms.reach import share_served
+
+class Serving(PlanarArm):
+    def share_served(self, shelf, mount):
+        return share_served(shelf, self, mount, self.inverse)
+"""
+
+
+@pytest.mark.needs_mujoco
+def test_a_mount_that_cannot_serve_the_shelf_is_refused_where_joints_are_driven(tmp_path: Path) -> None:
+    pytest.importorskip("mujoco")
+    (tmp_path / "serving.py").write_text(SERVING)
+    arm = f"{tmp_path / 'serving.py'}:Serving"
+    low = replace(BASIC, mounts={arm: Mount(-0.1, 0.3, 0.02, 0.0)})  # its plane is not the gripper's
+    with pytest.raises(IncompatibleError, match=r"reaches 0% of the shelf, and 70% is the least.*phframe arm reach"):
+        ExecutionWorld(WorldSpec(low, "mujoco", arm))
+    ExecutionWorld(WorldSpec(low, "pymunk", arm)).close()
+    ExecutionWorld(WorldSpec(BASIC, "mujoco", arm)).close()
 
 
 def test_worlds_can_be_closed_twice_and_are_by_with() -> None:

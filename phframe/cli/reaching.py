@@ -1,0 +1,95 @@
+"""What ``phframe arm reach`` does."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from phframe.arms.reach import Reachability, reachability
+from phframe.cli.console import emit
+from phframe.cli.needs import require
+from phframe.cli.output import STANDARD_OUTPUT, Output
+from phframe.core import InputError, Mount
+from phframe.registry import Kind, create
+from phframe.runtime.scenes import find_scene
+
+FORMAT = 1
+"""Of the JSON object."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What ``phframe arm reach`` was asked for.
+
+    Attributes:
+        arm: A name, or a class in a file.
+        scene: A name, or a file.
+        mount: Where the base stands: x, y, z (m), yaw (rad); None: as the scene or the arm has it.
+        out: The picture; None: none.
+        options: As text, by part and key.
+        as_json: Whether to print JSON.
+        force: Whether a file may be overwritten.
+    """
+
+    arm: str
+    scene: str
+    mount: tuple[float, float, float, float] | None
+    out: str | None
+    options: Mapping[str, Mapping[str, str]]
+    as_json: bool
+    force: bool
+
+
+def run(wanted: Wanted) -> None:
+    """Print the shares, and draw the map if that is wanted.
+
+    Raises:
+        PhframeError: If something asked for cannot be used; nothing was written then.
+    """
+    scene = find_scene(wanted.scene, wanted.options["scenes"])
+    arm = create(Kind.ARM, wanted.arm, wanted.options["arm"])
+    output = _output(wanted)
+    own = scene.mounts.get(wanted.arm) or arm.default_mount(scene.shelf)
+    mount = own if wanted.mount is None else Mount(*wanted.mount)
+    reach = reachability(scene, arm, mount)
+    if output is not None:
+        from phframe.arms.reach_map import reach_picture
+
+        output.write_bytes(reach_picture(reach, scene, f"{wanted.arm} in {scene.name}"))
+    shares = _shares(wanted.arm, scene.name, mount, reach)
+    emit(json.dumps(shares, allow_nan=False) if wanted.as_json else _sentence(shares))
+
+
+def _output(wanted: Wanted) -> Output | None:
+    if wanted.out is None:
+        return None
+    if wanted.out == STANDARD_OUTPUT:
+        raise InputError("a picture does not go to standard output: name a file with --out FILE.png")
+    require("matplotlib", "the map of what an arm reaches", "plots")
+    return Output(wanted.out, force=wanted.force)
+
+
+def _shares(arm: str, scene: str, mount: Mount, reach: Reachability) -> dict[str, Any]:
+    known = np.isfinite(reach.yaws)
+    return {
+        "format": FORMAT,
+        "arm": arm,
+        "scene": scene,
+        "mount": [mount.x, mount.y, mount.z, mount.yaw],
+        "share": reach.share,
+        "straight": float((reach.yaws == 0.0).mean()),
+        "depths": [round(depth, 6) for depth in reach.depths.tolist()],
+        "share_at_depth": known.mean(axis=0).tolist(),
+    }
+
+
+def _sentence(shares: Mapping[str, Any]) -> str:
+    x, y, z, yaw = shares["mount"]
+    return (
+        f"{shares['arm']} with its base at x {x:.3f}, y {y:.3f}, z {z:.3f} m, yaw {yaw:.3f} rad reaches "
+        f"{shares['share']:.1%} of the shelf of {shares['scene']}, {shares['straight']:.1%} without turning the gripper"
+    )

@@ -1,0 +1,83 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from phframe.arms.planar import PlanarArm, PlanarArmOptions
+from phframe.arms.reach import reachability
+from phframe.runtime.scenes import find_scene
+from tests.cli.conftest import Invoke, Run
+
+
+def test_the_shares_are_those_of_the_map(invoke: Invoke, workplace: Path) -> None:
+    scene, arm = find_scene("papallas/s02"), PlanarArm(PlanarArmOptions(link_width=0.5))
+    result = invoke("arm", "reach", "--scene", "papallas/s02", "--option", "arm.link_width=0.5", "--json")
+    assert result.exit_code == 0
+    shares, reach = json.loads(result.stdout), reachability(scene, arm, arm.default_mount(scene.shelf))
+    assert shares["share"] == reach.share < 0.7
+    assert shares["straight"] < shares["share"]
+    assert len(shares["depths"]) == len(shares["share_at_depth"]) == len(reach.depths)
+    assert sum(shares["share_at_depth"]) / len(reach.depths) == pytest.approx(reach.share)
+    assert list(workplace.iterdir()) == []
+
+
+def test_the_sentence_says_from_where_how_much_is_reached(invoke: Invoke) -> None:
+    said = invoke("arm", "reach").stdout
+    assert "planar with its base at x -0.100, y 0.305" in said
+    assert "100.0% of the shelf of vieira/basic" in said
+    assert "x -3.000" in (far := invoke("arm", "reach", "--mount", "-3", "0.3", "0.06", "0").stdout)
+    assert "reaches 0.0%" in far
+
+
+def test_the_map_is_drawn_once_and_again_only_if_forced(invoke: Invoke, workplace: Path) -> None:
+    pytest.importorskip("matplotlib")
+    command = ["arm", "reach", "--out", "reach.png"]
+    assert invoke(*command).exit_code == 0
+    assert Path("reach.png").read_bytes().startswith(b"\x89PNG")
+    assert invoke(*command).exit_code == 2
+    assert invoke(*command, "--force").exit_code == 0
+    assert [each.name for each in workplace.iterdir()] == ["reach.png"]
+
+
+def test_without_matplotlib_it_says_what_to_install(run: Run, tmp_path: Path, workplace: Path) -> None:
+    hook = "import importlib.util as u\nf = u.find_spec\nu.find_spec = lambda n, *a: None if n == 'matplotlib' else f(n, *a)\n"
+    (tmp_path / "site").mkdir()
+    (tmp_path / "site" / "sitecustomize.py").write_text(hook)
+    done = run("arm", "reach", "--out", "reach.png")
+    assert done.returncode == 3
+    assert done.stderr.count("\n") == 1
+    assert "phframe[plots]" in done.stderr
+    assert list(workplace.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["rech"], "Did you mean 'reach'?"),
+        (["reach", "--arm", "plannar"], "Did you mean 'planar'?"),
+        (["reach", "--scene", "vieira/basik"], "Did you mean 'vieira/basic'?"),
+        (["reach", "--mount", "nan", "0", "0", "0"], "finite"),
+        (["reach", "--mount", "1", "0"], "--mount"),
+        (["reach", "--option", "margin=1"], "no planner here"),
+        (["reach", "--option", "arm.link_width=0"], "link_width"),
+        (["reach", "--out", "-"], "standard output"),
+        (["reach", "--out", "."], "directory"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_bad_input_is_one_line(invoke: Invoke, workplace: Path, arguments: list[str], said: str) -> None:
+    result = invoke("arm", *arguments)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert result.stderr.startswith("error: ")
+    assert result.stderr.count("\n") == 1
+    assert said in result.stderr
+    assert list(workplace.iterdir()) == []
+
+
+def test_a_group_alone_shows_its_help_and_is_no_success(invoke: Invoke) -> None:
+    result = invoke("arm")
+    assert result.exit_code == 2
+    assert "reach" in result.stdout
