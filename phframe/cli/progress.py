@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from threading import Timer
 
 from phframe.cli.console import error_console
-from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Step
-from phframe.runtime.observer import Observer
+from phframe.core import Episode, Plan, Scene, Setup, State, Step
+from phframe.runtime.observer import MountedArm, Observer
 
 AFTER = 1.0
 """Seconds before anything is shown."""
@@ -32,7 +32,7 @@ class Progress(Observer):
         if self._console.is_terminal:
             self._timer.start()
 
-    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
         """The first plan is being made."""
         self._status.update(f"Planning with {setup.planner} for {scene.name}")
 

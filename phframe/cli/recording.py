@@ -7,9 +7,9 @@ from pathlib import Path
 
 from phframe.cli.console import note
 from phframe.cli.run_directory import RunDirectory
-from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Step
+from phframe.core import Episode, Plan, Scene, Setup, State, Step
 from phframe.core.errors import NotInstalledError, PluginError
-from phframe.runtime.observer import Observer
+from phframe.runtime.observer import MountedArm, Observer
 
 RECORDING = "recording.rrd"
 RecorderType = Callable[[Path], Observer]
@@ -28,7 +28,7 @@ class RunFiles(Observer):
         self._recorder: Observer | None = None
         self.recording: Path | None = None
 
-    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
         """Make the directory, and the recording in it.
 
         Raises:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -34,10 +34,10 @@ from phframe.pushing.options import PushingOptions
 from phframe.pushing.outcome import grasp_outcome, is_cleared
 from phframe.pushing.reach import Grasp, grasp_action
 from phframe.runtime.execution_world import ExecutionWorld
-from phframe.runtime.observer import Observer
+from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.replay import replay
-from phframe.runtime.world import WorldSpec
+from phframe.runtime.world import World, WorldSpec
 
 
 def run_episode(
@@ -88,7 +88,8 @@ class _Run:
         self._state = self._planned_from = self._scene.initial_state()
 
     def episode(self) -> Episode:
-        self._tell(lambda observer: observer.begin(self._scene, self._setup, self._execution.arm.shape))
+        arm = MountedArm(self._execution.arm, self._execution.mount, self._execution.by_joints)
+        self._tell(lambda observer: observer.begin(self._scene, self._setup, arm))
         self._state = self._execution.start()
         status, reason = self._outcome()
         spent = self._execution.lifting_time + self._planning.lifting_time
@@ -242,20 +243,23 @@ class _Run:
             what(observer)
 
 
-@dataclass(frozen=True, slots=True)
 class _Frames:
-    """Frames of a step, replayed each time somebody asks for them, in a world like the one it was carried out in."""
+    """Frames of a step, replayed when somebody first asks for them, in a world like the one it was carried out in."""
 
-    planning: PlanningWorld
-    spec: WorldSpec
-    step: Step
+    def __init__(self, planning: PlanningWorld, spec: WorldSpec, step: Step) -> None:
+        self._planning, self._spec, self._step = planning, spec, step
+        self._seen: list[tuple[float, State]] | None = None
 
     def __iter__(self) -> Iterator[tuple[float, State]]:
-        if self.planning.spec == self.spec:
-            yield from replay(self.planning, self.step.before, self.step.action)
-            return
-        with PlanningWorld(self.spec) as world:
-            yield from replay(world, self.step.before, self.step.action)
+        if self._seen is None:
+            self._seen = self._replay()
+        return iter(self._seen)
+
+    def _replay(self) -> list[tuple[float, State]]:
+        if self._planning.spec == self._spec:
+            return replay(self._planning, self._step.before, self._step.trajectory)
+        with World(self._spec) as world:
+            return replay(world, self._step.before, self._step.trajectory)
 
 
 def _end_of_reach(step: Step) -> float:

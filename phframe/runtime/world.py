@@ -110,6 +110,11 @@ class World:
         if length < shelf.depth:
             raise IncompatibleError(f"arm {arm!r} is {length:g} m long, too short for a shelf {shelf.depth:g} m deep")
 
+    @property
+    def by_joints(self) -> bool:
+        """Whether the engine drives the arm's joints, not its outline."""
+        return self._motion_planner is not None
+
     def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
         """What to drive to carry out an action from a state: the way to the path's beginning, and the path."""
         if (refusal := self._refuse_opening(action)) is not None:

@@ -59,7 +59,9 @@ def test_after_a_stall_the_arm_is_outside_and_the_objects_are_in_place(action: A
         assert foremost(after) <= 1e-3, "the whole arm is before the mouth"
         assert after.on_board.all()
         assert (after.positions[:, 1] <= 0.6 - 0.03 + 2e-3).all(), "nothing is squeezed into the wall"
-        frames = list(replay(world, start, action))
+        trajectory = world.lift(start, action)
+        assert isinstance(trajectory, GripperTrajectory)
+        frames = replay(world, start, trajectory)
         times = [time for time, _ in frames]
         assert times == sorted(times)
         assert times[-1] == pytest.approx(motion.duration)
