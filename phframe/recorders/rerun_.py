@@ -22,6 +22,7 @@ from phframe.recorders import (
 )
 from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.blueprint import blueprint_for
+from phframe.recorders.coloring import components_of
 from phframe.recorders.frames import Frames
 from phframe.recorders.stream import Stream
 from phframe.runtime.observer import MountedArm, Observer
@@ -139,7 +140,7 @@ class RerunRecorder(Observer):
         arm_entities.log_motion(stream, self._arm, self._bodies, frames, self._actions)
 
     def _color(self, stream: Stream, step: Step, state: State) -> None:
-        components = decision_entities.components_of(step.decision)
+        components = components_of(step.decision)
         object_entities.log_colors(stream, self._scene, state, components, step.decision.chosen)
 
     def _show_page(self, stream: Stream, step: Step, *, done: bool) -> None:

@@ -6,7 +6,7 @@ from phframe.arms.articulated import ArticulatedArm
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import SIDES, Side, arm_joints, baxter_urdf, fingers, mirrored
 from phframe.arms.description import ArmDescription, Section, Stand
-from phframe.core import Options
+from phframe.core import LinkMesh, Options
 
 
 class BaxterOptions(Options):
@@ -28,6 +28,12 @@ class Baxter(ArticulatedArm[BaxterOptions]):
         """From the table of figures."""
         side = self.options.side
         return _description(side), baxter_urdf(side)
+
+    def meshes(self) -> tuple[LinkMesh, ...]:
+        """Rethink's, where the extra ``meshes`` is installed."""
+        from phframe.arms.baxter.meshes import baxter_meshes
+
+        return baxter_meshes(self.options.side)
 
 
 def _description(side: Side) -> ArmDescription:
