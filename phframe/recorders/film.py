@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -45,15 +46,13 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
         ".mp4": Format(
             "mp4",
             "libx264",
-            1280,
-            720,
-            30,
+            960,
+            540,
+            25,
             encoding={"crf": "21", "preset": "veryfast"},
             writing={"movflags": "faststart"},
         ),
-        ".webp": Format(
-            "webp", "libwebp_anim", 720, 404, 10, 3.0, encoding={"quality": "60"}, writing={"loop": "0"}
-        ),
+        ".webp": Format("webp", "libwebp_anim", 720, 404, 10, 3.0, encoding={"quality": "60"}, writing={"loop": "0"}),
     }
 )
 """By the file's ending: a video, and a small moving picture for a page, quicker than the world."""
@@ -128,16 +127,14 @@ class Film:
         self._write(None)
         try:
             self._container.close()
-            os.replace(_beside(self.path), self.path)
+            _beside(self.path).replace(self.path)
         except OSError as error:
             raise _unwritable(self.path, error) from None
 
     def discard(self) -> None:
         """Leave nothing."""
-        try:
+        with suppress(OSError, ValueError):
             self._container.close()
-        except (OSError, ValueError):
-            pass  # it is thrown away
         _beside(self.path).unlink(missing_ok=True)
 
     def _write(self, frame: av.VideoFrame | None) -> None:

@@ -1,14 +1,8 @@
-"""Draws pictures of a MuJoCo model with no screen: by EGL, or in software by OSMesa.
-
-MuJoCo's own Renderer takes its OpenGL from the environment variable ``MUJOCO_GL`` as it was when mujoco was imported,
-and without it wants a display on Linux; here what is installed is taken.
-"""
+"""Draws pictures of a MuJoCo model with no screen: by EGL, or in software by OSMesa."""
 
 from __future__ import annotations
 
-import os
-import sys
-from ctypes.util import find_library
+import warnings
 from typing import Any
 
 import mujoco
@@ -16,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phframe.core import InputError
+from phframe.recorders.opengl import advice, find_opengl
 
 Picture = NDArray[np.uint8]
-SETTING = "MUJOCO_GL"
-LIBRARIES = {"egl": ("EGL", "libegl1"), "osmesa": ("OSMesa", "libosmesa6")}
-"""What may draw on Linux: the shared library, and Debian's package."""
 MOST_GEOMS = 2000
+NO_OPENGL = (mujoco.FatalError, ImportError, RuntimeError, AttributeError, OSError)
+"""What MuJoCo and PyOpenGL raise where there is none."""
 
 
 class Offscreen:
@@ -38,12 +32,21 @@ class Offscreen:
 
     def __init__(self, model: Any, width: int, height: int) -> None:
         self._model, self._rect = model, mujoco.MjrRect(0, 0, width, height)
-        self._gl: Any = open_gl(width, height)
-        self._gl.make_current()
         self._scene = mujoco.MjvScene(model, maxgeom=MOST_GEOMS)
-        self._context: Any = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
-        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
+        name = find_opengl()
+        try:
+            self._open(name)
+        except NO_OPENGL as error:
+            why = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+            raise InputError(f"cannot draw pictures with {name or 'OpenGL'}: {why}. {advice(name)}") from None
         self._pixels = np.zeros((height, width, 3), dtype=np.uint8)
+
+    def _open(self, name: str) -> None:
+        with warnings.catch_warnings(action="ignore"):  # of GLFW, which warns and goes on without a window
+            self._gl: Any = _open_gl(name, self._rect.width, self._rect.height)
+            self._gl.make_current()
+        self._context: Any = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_100)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
 
     def draw(self, data: Any, camera: Any, caption: tuple[str, str] = ("", "")) -> Picture:
         """What the camera sees, ``(height, width, 3)`` red, green and blue; a caption in two columns at the top left."""
@@ -66,47 +69,26 @@ class Offscreen:
             self._gl = None
 
 
-def open_gl(width: int, height: int) -> Any:
-    """Somewhere to draw. Free it.
+def require_drawing() -> None:
+    """Check that pictures can be drawn here, by drawing one of nothing.
 
     Raises:
-        InputError: If nothing here can draw; says what to install or set.
+        InputError: If not; says what to install or set.
     """
-    wanted = _wanted()
-    try:
-        return _context_type(wanted)(width, height)
-    except (ImportError, RuntimeError, AttributeError, OSError) as error:  # what MuJoCo and PyOpenGL raise without GL
-        why = " ".join(str(error).split()) or type(error).__name__
-        raise InputError(f"cannot draw pictures with {wanted or 'OpenGL'}: {why}. {_advice(wanted)}") from None
+    model = mujoco.MjSpec().compile()
+    screen = Offscreen(model, 16, 16)
+    screen.draw(mujoco.MjData(model), mujoco.MjvCamera())
+    screen.close()
 
 
-def _wanted() -> str:
-    """What the environment says, else on Linux what is installed; empty: what MuJoCo takes on this system."""
-    given = os.environ.get(SETTING, "").strip().lower()
-    if given or not sys.platform.startswith("linux"):
-        return given
-    for name, (library, _) in LIBRARIES.items():
-        if find_library(library) is not None:
-            return name
-    raise InputError(f"cannot draw pictures: neither EGL nor OSMesa is installed. {_advice('')}")
-
-
-def _context_type(wanted: str) -> Any:
-    if wanted == "egl":
+def _open_gl(name: str, width: int, height: int) -> Any:
+    if name == "egl":
         from mujoco.egl import GLContext
-    elif wanted == "osmesa":
+    elif name == "osmesa":
         from mujoco.osmesa import GLContext
     else:
         from mujoco.gl_context import GLContext
-    return GLContext
-
-
-def _advice(wanted: str) -> str:
-    if not sys.platform.startswith("linux"):
-        return f"Set {SETTING} to what this system has."
-    other = "osmesa" if wanted == "egl" else "egl"
-    packages = " or ".join(package for _, package in LIBRARIES.values())
-    return f"Install one of them (Debian: {packages}), or set {SETTING}={other}."
+    return GLContext(width, height)
 
 
 def _plain(text: str) -> str:

@@ -18,8 +18,8 @@ BOARD_THICKNESS = 0.012
 WALL_THICKNESS = 0.004
 EDGE = 0.0015
 """Half the thickness of the shelf's edges (m)."""
-SKY = (46, 54, 66), (16, 20, 26)
-"""Colours above and below the horizon."""
+SKY = (156, 167, 181), (98, 109, 123)
+"""Colours above and below the horizon, between those of the shelf and of dark robots."""
 
 
 class Stage:
@@ -74,9 +74,9 @@ class Stage:
 def camera(shelf: Shelf) -> Any:
     """From before the shelf and above, a little from the north, into it."""
     seen = mujoco.MjvCamera()
-    seen.lookat = [0.30 * shelf.depth, 0.5 * shelf.width, 0.02]
-    seen.distance = 1.15 + 0.6 * max(shelf.depth, shelf.width)
-    seen.azimuth, seen.elevation = -28.0, -42.0
+    seen.lookat = [0.2 * shelf.depth, 0.45 * shelf.width, 0.06]
+    seen.distance = 0.85 + 0.9 * max(shelf.depth, shelf.width)
+    seen.azimuth, seen.elevation = -26.0, -40.0
     return seen
 
 
@@ -84,15 +84,15 @@ def _set_light(spec: Any, shelf: Shelf, width: int, height: int) -> None:
     view = spec.visual
     view.global_.offwidth, view.global_.offheight = width, height
     view.headlight.ambient, view.headlight.diffuse, view.headlight.specular = [0.35] * 3, [0.35] * 3, [0.1] * 3
-    view.quality.shadowsize = 2048
+    view.quality.shadowsize = 1024
     view.map.znear, view.map.zfar = 0.01, 50.0
     sky = spec.add_texture(
         name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT
     )
     sky.rgb1, sky.rgb2 = (np.array(color) / 255.0 for color in SKY)
     sky.width = sky.height = 256
-    above = [-0.3, shelf.width / 2.0 + 0.4, 2.0]
-    lamp = spec.worldbody.add_light(name="lamp", pos=above, dir=[0.3, -0.2, -1.0], diffuse=[0.5] * 3, castshadow=True)
+    # Along the side walls, so that they shade nothing.
+    lamp = spec.worldbody.add_light(pos=[-0.4, shelf.width / 2.0, 2.0], dir=[0.25, 0.0, -1.0], diffuse=[0.5] * 3)
     lamp.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
 
 
@@ -108,11 +108,10 @@ def _add_shelf(spec: Any, shelf: Shelf) -> None:
     corners = [(x, y) for x in (0.0, depth) for y in (0.0, width)]
     for x, y in corners:
         _add_box(spec, (x - EDGE, y - EDGE, 0.0), (x + EDGE, y + EDGE, height), palette.EDGE)
-    for z in (0.0, height):
-        for x in (0.0, depth):
-            _add_box(spec, (x - EDGE, 0.0, z - EDGE), (x + EDGE, width, z + EDGE), palette.EDGE)
-        for y in (0.0, width):
-            _add_box(spec, (0.0, y - EDGE, z - EDGE), (depth, y + EDGE, z + EDGE), palette.EDGE)
+    for x, z in ((0.0, 0.0), (depth, 0.0), (depth, height)):  # none over the mouth: it would shade the board
+        _add_box(spec, (x - EDGE, 0.0, z - EDGE), (x + EDGE, width, z + EDGE), palette.EDGE)
+    for y, z in ((0.0, 0.0), (0.0, height), (width, 0.0), (width, height)):
+        _add_box(spec, (0.0, y - EDGE, z - EDGE), (depth, y + EDGE, z + EDGE), palette.EDGE)
 
 
 def _add_box(spec: Any, low: Iterable[float], high: Iterable[float], color: palette.Color) -> None:

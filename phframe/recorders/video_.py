@@ -13,8 +13,7 @@ from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.coloring import components_of
 from phframe.recorders.film import Film, format_of, refuse_unwritable
 from phframe.recorders.frames import Frames
-from phframe.recorders.offscreen import Offscreen, open_gl
-from phframe.recorders.stage import Stage, camera
+from phframe.recorders.opengl import find_opengl
 from phframe.runtime.observer import MountedArm, Observer
 
 STILL = 1.0
@@ -37,7 +36,10 @@ class VideoRecorder(Observer):
     def __init__(self, path: Path) -> None:
         self.path, self._kind = path, format_of(path)
         refuse_unwritable(path)
-        open_gl(self._kind.width, self._kind.height).free()
+        find_opengl()  # before mujoco is imported: it wants what the environment asks for
+        from phframe.recorders.offscreen import require_drawing
+
+        require_drawing()
         self._shooting: _Shooting | None = None
 
     def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
@@ -86,6 +88,9 @@ class _Shooting:
     """A stage, somebody who draws it, and a film."""
 
     def __init__(self, film: Film, scene: Scene, arm: MountedArm) -> None:
+        from phframe.recorders.offscreen import Offscreen
+        from phframe.recorders.stage import Stage, camera
+
         self._film, self._bodies, self._camera = film, bodies_of(arm, scene), camera(scene.shelf)
         self._stage = Stage(scene, self._bodies, film.kind.width, film.kind.height)
         self._screen = Offscreen(self._stage.model, film.kind.width, film.kind.height)

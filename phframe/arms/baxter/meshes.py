@@ -25,6 +25,8 @@ PAD_AT: Vector = (0.0, 0.01725, 0.1127)
 """Of the pad on the left finger, in Rethink's axes (m)."""
 PLAIN = (0.3, 0.3, 0.32)
 """Colour of the torso, whose file has none."""
+DARKEST = 0.07
+"""Of a colour channel: some of the files' covers are so black that nothing of their shape would be seen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +117,11 @@ def _surfaces(path: Path) -> Iterator[tuple[FloatArray, FloatArray, tuple[float,
         raise ArmError(f"cannot read Baxter's mesh {path}: {error}") from None
     for mesh in scene.dump():
         material = getattr(mesh.visual, "material", None)
-        color = PLAIN if material is None else tuple(float(channel) / 255.0 for channel in material.main_color[:3])
+        color = (
+            PLAIN
+            if material is None
+            else tuple(max(DARKEST, float(channel) / 255.0) for channel in material.main_color[:3])
+        )
         yield mesh.vertices, mesh.faces, (color[0], color[1], color[2])
 
 
