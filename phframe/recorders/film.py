@@ -131,8 +131,8 @@ class Film:
         except OSError as error:
             raise _unwritable(self.path, error) from None
 
-    def discard(self) -> None:
-        """Leave nothing."""
+    def close(self) -> None:
+        """Leave nothing, unless it is finished. May be called twice."""
         with suppress(OSError, ValueError):
             self._container.close()
         _beside(self.path).unlink(missing_ok=True)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+from ctypes import CDLL
 from ctypes.util import find_library
 
 from phframe.core import InputError
@@ -32,10 +33,20 @@ def find_opengl() -> str:
         return given
     wanted = [given] if given else list(LIBRARIES)
     for name in wanted:
-        if find_library(LIBRARIES[name][0]) is not None:
+        if _is_there(LIBRARIES[name][0]):
             return name
     libraries = " nor ".join(LIBRARIES[name][0] for name in wanted)
     raise InputError(f"cannot draw pictures: {libraries} is not installed. {advice(given)}")
+
+
+def _is_there(library: str) -> bool:
+    if find_library(library) is not None:
+        return True
+    try:  # where only the loader's own path leads to it
+        CDLL(f"lib{library}.so")
+    except OSError:
+        return False
+    return True
 
 
 def advice(failed: str) -> str:

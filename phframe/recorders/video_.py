@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import closing
 from itertools import chain
 from pathlib import Path
 
@@ -91,9 +92,10 @@ class _Shooting:
         from phframe.recorders.offscreen import Offscreen
         from phframe.recorders.stage import Stage, camera
 
+        width, height = film.kind.width, film.kind.height
         self._film, self._bodies, self._camera = film, bodies_of(arm, scene), camera(scene.shelf)
-        self._stage = Stage(scene, self._bodies, film.kind.width, film.kind.height)
-        self._screen = Offscreen(self._stage.model, film.kind.width, film.kind.height)
+        self._stage = Stage(scene, self._bodies, width, height)
+        self._screen = Offscreen(self._stage.model, width, height)
         self._next = 0.0
 
     def show(
@@ -120,7 +122,6 @@ class _Shooting:
 
     def close(self, *, keep: bool) -> None:
         self._screen.close()
-        if keep:
-            self._film.finish()
-        else:
-            self._film.discard()
+        with closing(self._film) as film:
+            if keep:
+                film.finish()
