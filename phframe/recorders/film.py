@@ -52,7 +52,7 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
             encoding={"crf": "21", "preset": "veryfast"},
             writing={"movflags": "faststart"},
         ),
-        ".webp": Format("webp", "libwebp_anim", 720, 404, 10, 3.0, encoding={"quality": "60"}, writing={"loop": "0"}),
+        ".webp": Format("webp", "libwebp_anim", 720, 404, 12, 3.0, encoding={"quality": "70"}, writing={"loop": "0"}),
     }
 )
 """By the file's ending: a video, and a small moving picture for a page, quicker than the world."""

@@ -109,6 +109,8 @@ def _read(root: ET.Element, meshes: tuple[LinkMesh, ...], bright: frozenset[str]
     links = {link.attrib["name"]: link for link in root.findall("link")}
     hinges = {hinge.child: hinge for hinge in map(_hinge, root.findall("joint"))}
     (top,) = [name for name in links if name not in hinges]
+    if strangers := {mesh.link for mesh in meshes} - set(links):
+        raise ValueError(f"there are meshes for {', '.join(sorted(strangers))}, which it has no link for")
     bodies = (_body(name, link, meshes, bright) for name, link in links.items())
     return Robot(tuple(body for body in bodies if body.pieces), tuple(_sorted(hinges, top)), top)
 

@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from phframe.core import FloatArray, Scene, Shelf, State
+from phframe.core import FloatArray, Mount, Scene, Shelf, State
 from phframe.recorders import palette
 from phframe.recorders.arm_bodies import ArmBodies
 from phframe.recorders.bodies import Body, Piece, Primitive
@@ -71,12 +71,13 @@ class Stage:
         self.data.mocap_pos[row], self.data.mocap_quat[row] = pose[:3], pose[3:]
 
 
-def camera(shelf: Shelf) -> Any:
-    """From before the shelf and above, a little from the north, into it."""
+def camera(shelf: Shelf, mount: Mount) -> Any:
+    """From before the shelf and above into it, a little from the side on which the arm does not stand."""
+    north = mount.y <= 0.5 * shelf.width
     seen = mujoco.MjvCamera()
-    seen.lookat = [0.2 * shelf.depth, 0.45 * shelf.width, 0.06]
+    seen.lookat = [0.2 * shelf.depth, (0.45 if north else 0.55) * shelf.width, 0.06]
     seen.distance = 0.85 + 0.9 * max(shelf.depth, shelf.width)
-    seen.azimuth, seen.elevation = -26.0, -40.0
+    seen.azimuth, seen.elevation = (-26.0 if north else 26.0), -40.0
     return seen
 
 

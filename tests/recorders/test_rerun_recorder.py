@@ -92,6 +92,18 @@ def test_every_moving_object_is_where_the_frames_say(recording: Recording, made:
     assert all(np.allclose(written, really, atol=1e-6) for written, really in compared)
 
 
+def test_what_tilts_is_tilted(made: Recorded, tmp_path: Path) -> None:
+    step, row = made.episode.steps[1], SCENE.index("object_3")
+    poses = step.after.poses.copy()
+    poses[row, 2:] = [0.03, np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0]
+    recorder = RerunRecorder(tmp_path / "tilted.rrd")
+    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.stepped(replace(step, after=replace(step.after, poses=poses)), made.frames[1])
+    recorder.close()
+    turned = Recording(recorder.path).rows("/world/objects/object_3", "quaternion")[-1][2][0]
+    np.testing.assert_allclose(turned, [np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)], atol=1e-6)
+
+
 def test_what_stands_still_is_not_written_again_and_again(recording: Recording) -> None:
     assert len(recording.rows("/world/objects/object_4", "translation")) == 4
 

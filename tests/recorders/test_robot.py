@@ -73,6 +73,11 @@ def test_meshes_replace_the_primitives_of_their_link_only() -> None:
     assert isinstance(bodies["c"][0].shape, Primitive)
 
 
+def test_meshes_for_no_link_are_refused() -> None:
+    with pytest.raises(ArmError, match="meshes for d, which it has no link for"):
+        read_robot(FOLLOWER, [LinkMesh("d", np.eye(3), np.array([[0, 1, 2]]))])
+
+
 @pytest.mark.parametrize(
     ("text", "why"),
     [

@@ -18,7 +18,7 @@ pytest.importorskip("mujoco", reason="needs the extra 'video'")
 import av
 from PIL import Image
 
-from phframe.core import Condition, InputError, LinkMesh, State, Step
+from phframe.core import Condition, InputError, LinkMesh, Mount, State, Step
 from phframe.recorders import opengl, palette
 from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.coloring import object_color
@@ -145,12 +145,20 @@ def test_all_of_the_shelf_and_of_the_gripper_is_in_the_picture() -> None:
     show(stage, SCENE.initial_state())
     stage.model.geom_rgba[:] = [0.0, 1.0, 0.0, 1.0]
     screen = Offscreen(stage.model, 320, 180)
-    picture = screen.draw(stage.data, camera(SCENE.shelf))
+    picture = screen.draw(stage.data, camera(SCENE.shelf, mounted().mount))
     screen.close()
     green = (picture[..., 1] > 100) & (picture[..., 0] < 60)
     assert 0.1 < green.mean() < 0.7
     assert not green[0].any(), "nothing is cut off above"
     assert not green[:, 0].any(), "nor to the left"
+
+
+@pytest.mark.parametrize("y", [-0.1, 0.7])
+def test_the_camera_is_on_the_side_on_which_the_arm_does_not_stand(y: float) -> None:
+    view = camera(SCENE.shelf, Mount(-0.7, y, 0.0, 0.0))
+    sideways = view.lookat[1] - view.distance * np.cos(np.radians(view.elevation)) * np.sin(np.radians(view.azimuth))
+    middle = 0.5 * SCENE.shelf.width
+    assert (sideways - middle) * (y - middle) < 0.0
 
 
 def test_meshes_of_any_kind_can_be_drawn() -> None:
