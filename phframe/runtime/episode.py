@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -28,6 +28,7 @@ from phframe.core import (
     Step,
     TopologyEngine,
     Unreachable,
+    Watch,
 )
 from phframe.pushing.corridor import corridor_half_width, find_corridor
 from phframe.pushing.options import PushingOptions
@@ -36,8 +37,9 @@ from phframe.pushing.reach import Grasp, grasp_action
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
-from phframe.runtime.replay import replay
-from phframe.runtime.world import World, WorldSpec
+
+FRAME_PERIOD = 1.0 / 30.0
+"""Of the world's time, between the moments that observers are shown (s)."""
 
 
 def run_episode(
@@ -217,11 +219,13 @@ class _Run:
         if isinstance(trajectory, Unreachable):
             self._rejected = (*self._rejected, action)
             return f"the arm cannot do {action.name}: {trajectory.why}"
-        motion = self._execution.execute(trajectory)
+        frames: list[tuple[float, State]] = []
+        watch = Watch(FRAME_PERIOD, lambda time, state: frames.append((time, state))) if self._observers else None
+        motion = self._execution.execute(trajectory, watch)
         self._state = self._execution.observe()
         step = Step(action, trajectory, before, self._state, expected, motion, decision, len(self._plans) - 1)
         self._steps.append(step)
-        self._tell(lambda observer: observer.stepped(step, _Frames(self._planning, self._execution.spec, step)))
+        self._tell(lambda observer: observer.stepped(step, frames))
         return ""
 
     def _deviation(self, expected: State, action: Action) -> str:
@@ -241,25 +245,6 @@ class _Run:
     def _tell(self, what: Callable[[Observer], None]) -> None:
         for observer in self._observers:
             what(observer)
-
-
-class _Frames:
-    """Frames of a step, replayed when somebody first asks for them, in a world like the one it was carried out in."""
-
-    def __init__(self, planning: PlanningWorld, spec: WorldSpec, step: Step) -> None:
-        self._planning, self._spec, self._step = planning, spec, step
-        self._seen: list[tuple[float, State]] | None = None
-
-    def __iter__(self) -> Iterator[tuple[float, State]]:
-        if self._seen is None:
-            self._seen = self._replay()
-        return iter(self._seen)
-
-    def _replay(self) -> list[tuple[float, State]]:
-        if self._planning.spec == self._spec:
-            return replay(self._planning, self._step.before, self._step.trajectory)
-        with World(self._spec) as world:
-            return replay(world, self._step.before, self._step.trajectory)
 
 
 def _end_of_reach(step: Step) -> float:

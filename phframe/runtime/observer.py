@@ -9,7 +9,7 @@ from typing import Any
 from phframe.core import ArmModel, ArmShape, Episode, Mount, Plan, Scene, Setup, State, Step
 
 Frames = Iterable[tuple[float, State]]
-"""Seconds since an action began, and the world then; replayed when they are first asked for."""
+"""Seconds since an action began, and the world then: at its beginning, some thirty times a second, and at its end."""
 
 
 @dataclass(frozen=True, slots=True)
