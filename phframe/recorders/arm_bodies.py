@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from phframe.core import ArmShape, ArmState, FloatArray, Scene, compose, planar_pose, yaw_of
+from phframe.core import ArmShape, ArmState, FloatArray, Outline, Scene, compose, planar_pose, yaw_of
 from phframe.recorders import palette
 from phframe.recorders.bodies import Body, Piece, prism
 from phframe.recorders.frames import Frames, parked_arm
@@ -81,20 +81,31 @@ class Outlines(ArmBodies):
     """The outlines made solid, at the height of the gripper plane."""
 
     def __init__(self, shape: ArmShape, scene: Scene) -> None:
-        self._shape = shape
-        self.bodies = tuple(
-            Body(o.part, (Piece("0", prism(o), palette.FINGER if o.side else palette.LINK),)) for o in shape.closed
-        )
+        self._shape, self._sides = shape, {outline.part: outline.side for outline in shape.closed}
+        self.bodies = tuple(_solid(part, outlines) for part, outlines in parts_of(shape).items())
         self.parked = parked_arm(scene, shape)
 
     def poses(self, frames: Frames) -> dict[str, FloatArray]:
         """Where the gripper is; fingers aside by half the opening."""
         opened = (frames.openings - self._shape.min_opening) / 2.0
         return {
-            o.part: np.array([self._pose(at, o.side * out) for at, out in zip(frames.grippers, opened, strict=True)])
-            for o in self._shape.closed
+            part: np.array([self._pose(at, side * out) for at, out in zip(frames.grippers, opened, strict=True)])
+            for part, side in self._sides.items()
         }
 
     def _pose(self, gripper: FloatArray, aside: float) -> FloatArray:
         x, y, yaw = gripper
         return planar_pose(x - aside * np.sin(yaw), y + aside * np.cos(yaw), self._shape.height, yaw)
+
+
+def parts_of(shape: ArmShape) -> dict[str, list[Outline]]:
+    """The outlines, fingers closed, by the part that they are of: one that is not convex has several."""
+    parts: dict[str, list[Outline]] = {}
+    for outline in shape.closed:
+        parts.setdefault(outline.part, []).append(outline)
+    return parts
+
+
+def _solid(part: str, outlines: list[Outline]) -> Body:
+    color = palette.FINGER if outlines[0].side else palette.LINK
+    return Body(part, tuple(Piece(str(number), prism(outline), color) for number, outline in enumerate(outlines)))

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import rerun as rr
 
-from phframe.core import ArmShape, FloatArray, Outline
+from phframe.core import ArmShape, FloatArray
 from phframe.recorders import palette
-from phframe.recorders.arm_bodies import ArmBodies
+from phframe.recorders.arm_bodies import ArmBodies, parts_of
 from phframe.recorders.bodies import Piece, Primitive, normals
 from phframe.recorders.filling import filling
 from phframe.recorders.frames import Frames, changes, quaternions_xyzw
@@ -23,14 +23,14 @@ def log_arm(stream: Stream, arm: ArmShape, bodies: ArmBodies) -> None:
     for body in bodies.bodies:
         for piece in body.pieces:
             stream.keep(f"{_body(body.name)}/{rr.escape_entity_path_part(piece.name)}", _solid(piece))
-    for outline in arm.closed:
-        color = palette.FINGER if outline.side else palette.LINK
-        edge = np.vstack([outline.vertices, outline.vertices[:1]])
-        fill, radius = filling(outline.vertices, FILLING_LINES)
-        stream.keep(f"{_outline(outline)}/fill", rr.LineStrips2D(fill, radii=radius, colors=color, draw_order=14.0))
-        stream.keep(
-            f"{_outline(outline)}/edge", rr.LineStrips2D([edge], radii=-0.8, colors=palette.FINGER, draw_order=15.0)
-        )
+    for part, outlines in parts_of(arm).items():
+        color = palette.FINGER if outlines[0].side else palette.LINK
+        fills = [filling(outline.vertices, FILLING_LINES) for outline in outlines]
+        lines = [line for fill, _ in fills for line in fill]
+        radii = [radius for fill, radius in fills for _ in fill]
+        edges = [np.vstack([outline.vertices, outline.vertices[:1]]) for outline in outlines]
+        stream.keep(f"{_part(part)}/fill", rr.LineStrips2D(lines, radii=radii, colors=color, draw_order=14.0))
+        stream.keep(f"{_part(part)}/edge", rr.LineStrips2D(edges, radii=-0.8, colors=palette.FINGER, draw_order=15.0))
 
 
 def log_motion(stream: Stream, arm: ArmShape, bodies: ArmBodies, frames: Frames, action: int) -> None:
@@ -45,23 +45,23 @@ def log_motion(stream: Stream, arm: ArmShape, bodies: ArmBodies, frames: Frames,
     flat = np.column_stack([place, np.zeros(len(place))])
     columns = rr.Transform3D.columns(translation=flat, quaternion=_about_vertical(yaw))
     stream.put_many("top/arm", frames.times[moving], action, columns)
-    for outline in arm.closed:
-        if outline.side:
-            _log_finger(stream, outline, frames.openings - arm.min_opening, frames, action)
+    for part, outlines in parts_of(arm).items():
+        if side := outlines[0].side:
+            _log_finger(stream, part, side * (frames.openings - arm.min_opening) / 2.0, frames, action)
 
 
-def _log_finger(stream: Stream, outline: Outline, opened: FloatArray, frames: Frames, action: int) -> None:
-    moving = changes(opened)
-    columns = rr.Transform3D.columns(translation=_sideways(outline.side * opened[moving] / 2.0))
-    stream.put_many(_outline(outline), frames.times[moving], action, columns)
+def _log_finger(stream: Stream, part: str, aside: FloatArray, frames: Frames, action: int) -> None:
+    moving = changes(aside)
+    columns = rr.Transform3D.columns(translation=_sideways(aside[moving]))
+    stream.put_many(_part(part), frames.times[moving], action, columns)
 
 
 def _body(name: str) -> str:
     return f"world/arm/{rr.escape_entity_path_part(name)}"
 
 
-def _outline(outline: Outline) -> str:
-    return f"top/arm/{rr.escape_entity_path_part(outline.part)}"
+def _part(name: str) -> str:
+    return f"top/arm/{rr.escape_entity_path_part(name)}"
 
 
 def _about_vertical(yaw: FloatArray) -> FloatArray:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from phframe.core import ArmError, ArmModel, ArmState, InputError, LinkMesh, Mount, State, compose
 from phframe.recorders import palette
-from phframe.recorders.arm_bodies import bodies_of
+from phframe.recorders.arm_bodies import Outlines, bodies_of
 from phframe.recorders.bodies import Primitive, Surface, normals, prism
 from phframe.recorders.frames import Frames
 from phframe.recorders.robot import read_robot
@@ -105,6 +107,17 @@ def test_links_and_outlines_of_the_planar_arm_are_in_the_same_place() -> None:
     same_pose(ours["fingertip"][0], theirs["link"][0])
     for side in ("left", "right"):
         same_pose(ours[f"{side}_finger_link"][0], theirs[f"{side} finger"][0])
+
+
+def test_a_part_of_several_outlines_is_one_body_of_several_pieces() -> None:
+    near, *others = mounted().shape.closed
+    far = replace(near, vertices=near.vertices - [0.5, 0.0])
+    bodies = {body.name: body for body in Outlines(replace(mounted().shape, closed=(near, far, *others)), SCENE).bodies}
+    assert [len(body.pieces) for body in bodies.values()] == [2, 1, 1, 1]
+    first, second = (piece.shape for piece in bodies[near.part].pieces)
+    assert isinstance(first, Surface)
+    assert isinstance(second, Surface)
+    np.testing.assert_allclose(second.vertices, first.vertices - [0.5, 0.0, 0.0])
 
 
 def test_a_parked_robot_is_at_home() -> None:
