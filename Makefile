@@ -3,10 +3,10 @@
 
 # The extras (see pyproject.toml) that each job is set up with; `make test TEST_EXTRAS=dev` tests without any.
 TEST_EXTRAS ?= dev,rerun
-TEST_3D_EXTRAS ?= dev,mujoco,baxter
+TEST_3D_EXTRAS ?= dev,mujoco,baxter,meshes,video
 DEMO_EXTRAS ?= rerun
 SCENE ?= vieira/basic
-3D := needs_mujoco or needs_pybullet or needs_ompl or needs_baxter
+3D := needs_mujoco or needs_pybullet or needs_ompl or needs_baxter or needs_meshes or needs_video
 PYTEST_FLAGS ?= --numprocesses=auto --benchmark-disable
 
 override VENV := .venv
@@ -32,7 +32,7 @@ test: $(call stamp,$(TEST_EXTRAS)) ## run the tests
 	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS) -m 'not ($(3D))'
 
 test-3d: $(call stamp,$(TEST_3D_EXTRAS)) ## run the tests of the 3D engine and of Baxter
-	@$(VENV)/bin/python -c "import mujoco, pinocchio"
+	@$(VENV)/bin/python -c "import av, mujoco, pinocchio, trimesh"
 	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS) -m '$(3D)'
 
 lint: $(call stamp,$(TEST_EXTRAS)) ## check style, types, layers and spelling

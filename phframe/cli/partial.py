@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Status, Step
-from phframe.runtime.observer import Observer
+from phframe.core import Episode, Plan, Scene, Setup, State, Status, Step
+from phframe.runtime.observer import MountedArm, Observer
 
 
 class PartialEpisode(Observer):
@@ -17,7 +17,7 @@ class PartialEpisode(Observer):
         self._steps: list[Step] = []
         self._finished: Episode | None = None
 
-    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
         """Keep what the episode is about."""
         self._begun = scene, setup
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterator
 from threading import Timer
 
 from phframe.cli.console import error_console
-from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Step
-from phframe.runtime.observer import Observer
+from phframe.core import Episode, Plan, Scene, Setup, State, Step
+from phframe.runtime.observer import Frames, MountedArm, Observer
 
 AFTER = 1.0
 """Seconds before anything is shown."""
@@ -32,7 +32,7 @@ class Progress(Observer):
         if self._console.is_terminal:
             self._timer.start()
 
-    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
         """The first plan is being made."""
         self._status.update(f"Planning with {setup.planner} for {scene.name}")
 
@@ -42,10 +42,17 @@ class Progress(Observer):
         self._to_do, self._done = len(plan.actions), 0
         self._tell()
 
-    def stepped(self, step: Step, frames: Iterable[tuple[float, State]]) -> None:
+    def stepped(self, step: Step, frames: Frames) -> None:
         """One more action was carried out."""
         self._done += 1
         self._tell()
+
+    def through(self, frames: Frames) -> Iterator[tuple[float, State]]:
+        """The same frames, while the line says how many of them have been drawn."""
+        waiting = list(frames)
+        for number, frame in enumerate(waiting):
+            self._status.update(f"Filming action {self._done + 1}: {100 * number // len(waiting)} %")
+            yield frame
 
     def finished(self, episode: Episode) -> None:
         """The files are being written."""

@@ -1,15 +1,15 @@
-"""The recording of a run: its file is made in the run's directory when the episode begins."""
+"""What a run leaves: the recording in its directory, made when the episode begins, and a video where it is wanted."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 
 from phframe.cli.console import note
 from phframe.cli.run_directory import RunDirectory
-from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Step
+from phframe.core import Episode, Plan, Scene, Setup, Step
 from phframe.core.errors import NotInstalledError, PluginError
-from phframe.runtime.observer import Observer
+from phframe.runtime.observer import Frames, MountedArm, Observer
 
 RECORDING = "recording.rrd"
 RecorderType = Callable[[Path], Observer]
@@ -28,7 +28,7 @@ class RunFiles(Observer):
         self._recorder: Observer | None = None
         self.recording: Path | None = None
 
-    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
         """Make the directory, and the recording in it.
 
         Raises:
@@ -45,7 +45,7 @@ class RunFiles(Observer):
         if self._recorder is not None:
             self._recorder.planned(plan)
 
-    def stepped(self, step: Step, frames: Iterable[tuple[float, State]]) -> None:
+    def stepped(self, step: Step, frames: Frames) -> None:
         """Hand it on."""
         if self._recorder is not None:
             self._recorder.stepped(step, frames)
@@ -59,6 +59,41 @@ class RunFiles(Observer):
         """End the recording."""
         if self._recorder is not None:
             self._recorder.close()
+
+
+class VideoFile(Observer):
+    """Hands everything on to the recorder that films, and shows how far it is.
+
+    Args:
+        path: The file.
+        through: Hands on the frames that it is given, and shows how many.
+
+    Raises:
+        NotInstalledError: If a library that it needs is not installed.
+        InputError: If the file cannot be written, or nothing here can draw.
+    """
+
+    def __init__(self, path: Path, through: Callable[[Frames], Frames]) -> None:
+        from phframe.registry import Kind, load
+
+        self._recorder: Observer = load(Kind.RECORDER, "video")(path)
+        self._through = through
+
+    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+        """Hand it on."""
+        self._recorder.begin(scene, setup, arm)
+
+    def stepped(self, step: Step, frames: Frames) -> None:
+        """Hand it on, and show how far it is."""
+        self._recorder.stepped(step, self._through(frames))
+
+    def finished(self, episode: Episode) -> None:
+        """Hand it on."""
+        self._recorder.finished(episode)
+
+    def close(self) -> None:
+        """Put the video in its place, or leave nothing."""
+        self._recorder.close()
 
 
 def recorder_type(wanted: bool | None, *, quiet: bool) -> RecorderType | None:

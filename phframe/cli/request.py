@@ -26,6 +26,7 @@ class Request:
         tolerance: How far an object may be from where it was expected (m).
         out: Directory for the files; None: a new one.
         record: Whether to write a recording; None: if the recorder is installed.
+        video: The file of a video to make; None: none.
         view: Whether to open the viewer.
         as_json: Whether to print JSON.
         quiet: Whether to print errors only.
@@ -45,6 +46,7 @@ class Request:
     tolerance: float
     out: Path | None
     record: bool | None
+    video: Path | None
     view: bool
     as_json: bool
     quiet: bool

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from contextlib import closing
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +13,12 @@ from phframe.cli.exit_codes import ExitCode
 from phframe.cli.interrupt import dependable_interrupts
 from phframe.cli.partial import PartialEpisode
 from phframe.cli.progress import Progress
-from phframe.cli.recording import RECORDING, RunFiles, recorder_type
+from phframe.cli.recording import RECORDING, RunFiles, VideoFile, recorder_type
 from phframe.cli.request import Request
 from phframe.cli.run_directory import RUNS, RunDirectory
 from phframe.core import Episode, Status
 from phframe.recorders.view import open_viewer, require_viewer
+from phframe.runtime.observer import Observer
 
 EPISODE = "episode.json"
 SUMMARY = "summary.json"
@@ -36,10 +37,11 @@ def run(request: Request) -> int:
     if request.view:
         require_viewer((request.out or RUNS / "DIR") / RECORDING)
     files = RunFiles(directory, recorder_type(request.record, quiet=request.quiet))
-    partial = PartialEpisode()
+    progress, partial = Progress(), PartialEpisode()
+    videos = () if request.video is None else (VideoFile(request.video, progress.through),)
     try:
         with dependable_interrupts():
-            episode = _solve(request, files, partial)
+            episode = _solve(request, (partial, files, *videos), progress)
             summary = _write(episode, directory, files.recording)
     except KeyboardInterrupt:
         _tell_interrupted(partial, directory)
@@ -52,11 +54,12 @@ def run(request: Request) -> int:
     return ExitCode.SUCCESS if episode.status is Status.RETRIEVED else ExitCode.OTHER_OUTCOME
 
 
-def _solve(request: Request, files: RunFiles, partial: PartialEpisode) -> Episode:
+def _solve(request: Request, observers: Sequence[Observer], progress: Progress) -> Episode:
     from phframe.runtime.solve import solve
 
-    progress = Progress()
-    with closing(files), closing(progress):
+    with ExitStack() as stack:
+        for observer in (*observers, progress):
+            stack.callback(observer.close)
         if not request.quiet:
             progress.start()
         return solve(
@@ -72,7 +75,7 @@ def _solve(request: Request, files: RunFiles, partial: PartialEpisode) -> Episod
             time_limit=request.time_limit,
             max_replans=request.max_replans,
             tolerance=request.tolerance,
-            observers=(partial, files, progress),
+            observers=(*observers, progress),
         )
 
 

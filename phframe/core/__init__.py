@@ -19,6 +19,7 @@ from phframe.core.errors import (
 )
 from phframe.core.gripper_path import MOUTH_CLEARANCE, Action, Contacts, GripperPath, Phase, PhaseRule
 from phframe.core.infeasible import Infeasible
+from phframe.core.mesh import LinkMesh
 from phframe.core.motion import FORCE_WINDOW, Contact, Motion, Transition
 from phframe.core.motion_planner import MotionPlanner, Unreachable
 from phframe.core.options import Options
@@ -65,6 +66,7 @@ __all__ = [
     "Ints",
     "Joint",
     "JointTrajectory",
+    "LinkMesh",
     "Loop",
     "Motion",
     "MotionPlanner",

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from phframe.core.errors import ArmError, IncompatibleError
+from phframe.core.mesh import LinkMesh
 from phframe.core.options import Options
 from phframe.core.scene import Mount, Scene, Shelf
 from phframe.core.value import FloatArray, Floats, Value
@@ -180,6 +181,10 @@ class ArmModel(ABC, Generic[OptionsT]):
         Its joints and links bear the names in ``joints``, ``fingers`` and ``tip_link``; inertias, limits and collision
         shapes are the real ones.
         """
+
+    def meshes(self) -> tuple[LinkMesh, ...]:
+        """What links really look like, for pictures; a link without any is drawn as the primitives of ``urdf``."""
+        return ()
 
     def motion_planner(self, scene: Scene, mount: Mount) -> MotionPlanner[Any]:
         """What lifts the gripper's paths to joints, for backends that drive those.

@@ -1,56 +1,67 @@
-"""The arm in 3D, its outlines made solid, and from the top: logged once, then only moved."""
+"""The arm in 3D and from the top: logged once, then only moved."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 import rerun as rr
 
-from phframe.core import ArmShape, FloatArray, Outline
+from phframe.core import ArmShape, FloatArray
 from phframe.recorders import palette
+from phframe.recorders.arm_bodies import ArmBodies, parts_of
+from phframe.recorders.bodies import Piece, Primitive, normals
 from phframe.recorders.filling import filling
-from phframe.recorders.frames import Frames, changes
+from phframe.recorders.frames import Frames, changes, quaternions_xyzw
 from phframe.recorders.stream import Stream
 
 FILLING_LINES = 8
 
 
-def log_arm(stream: Stream, arm: ArmShape) -> None:
-    """The shape of every part, fingers closed, in the frame of the fingertip."""
-    for outline in arm.closed:
-        color = palette.FINGER if outline.side else palette.LINK
-        stream.keep(f"world/{_part(outline)}", _prism(outline, color))
-        edge = np.vstack([outline.vertices, outline.vertices[:1]])
-        fill, radius = filling(outline.vertices, FILLING_LINES)
-        stream.keep(f"top/{_part(outline)}/fill", rr.LineStrips2D(fill, radii=radius, colors=color, draw_order=14.0))
-        stream.keep(
-            f"top/{_part(outline)}/edge", rr.LineStrips2D([edge], radii=-0.8, colors=palette.FINGER, draw_order=15.0)
-        )
+def log_arm(stream: Stream, arm: ArmShape, bodies: ArmBodies) -> None:
+    """The shape of every body in its own frame, and of every outline, fingers closed, in that of the fingertip."""
+    for body in bodies.bodies:
+        for piece in body.pieces:
+            stream.keep(f"{_body(body.name)}/{rr.escape_entity_path_part(piece.name)}", _solid(piece))
+    for part, outlines in parts_of(arm).items():
+        color = palette.FINGER if outlines[0].side else palette.LINK
+        fills = [filling(outline.vertices, FILLING_LINES) for outline in outlines]
+        lines = [line for fill, _ in fills for line in fill]
+        radii = [radius for fill, radius in fills for _ in fill]
+        edges = [np.vstack([outline.vertices, outline.vertices[:1]]) for outline in outlines]
+        stream.keep(f"{_part(part)}/fill", rr.LineStrips2D(lines, radii=radii, colors=color, draw_order=14.0))
+        stream.keep(f"{_part(part)}/edge", rr.LineStrips2D(edges, radii=-0.8, colors=palette.FINGER, draw_order=15.0))
 
 
-def log_motion(stream: Stream, arm: ArmShape, frames: Frames, action: int) -> None:
-    """Where the fingertip and the fingers are in every frame."""
+def log_motion(stream: Stream, arm: ArmShape, bodies: ArmBodies, frames: Frames, action: int) -> None:
+    """Where every body is in every frame; from the top, the fingertip and the fingers."""
+    for name, poses in bodies.poses(frames).items():
+        moving = changes(poses)
+        columns = rr.Transform3D.columns(translation=poses[moving, :3], quaternion=quaternions_xyzw(poses[moving]))
+        stream.put_many(_body(name), frames.times[moving], action, columns)
     moving = changes(frames.grippers)
     place, yaw = frames.grippers[moving, :2], frames.grippers[moving, 2]
-    # At height 0 from the top: the viewer draws what stands higher in a 2D view aside from where it is.
-    for view, height in (("world", arm.height), ("top", 0.0)):
-        raised = np.column_stack([place, np.full(len(place), height)])
-        columns = rr.Transform3D.columns(translation=raised, quaternion=_about_vertical(yaw))
-        stream.put_many(f"{view}/arm", frames.times[moving], action, columns)
-    for outline in arm.closed:
-        if outline.side:
-            _log_finger(stream, outline, frames.openings - arm.min_opening, frames, action)
+    # At height 0: the viewer draws what stands higher in a 2D view aside from where it is.
+    flat = np.column_stack([place, np.zeros(len(place))])
+    columns = rr.Transform3D.columns(translation=flat, quaternion=_about_vertical(yaw))
+    stream.put_many("top/arm", frames.times[moving], action, columns)
+    for part, outlines in parts_of(arm).items():
+        if side := outlines[0].side:
+            _log_finger(stream, part, side * (frames.openings - arm.min_opening) / 2.0, frames, action)
 
 
-def _log_finger(stream: Stream, outline: Outline, opened: FloatArray, frames: Frames, action: int) -> None:
-    moving = changes(opened)
-    aside = _sideways(outline.side * opened[moving] / 2.0)
-    for view in ("world", "top"):
-        columns = rr.Transform3D.columns(translation=aside)
-        stream.put_many(f"{view}/{_part(outline)}", frames.times[moving], action, columns)
+def _log_finger(stream: Stream, part: str, aside: FloatArray, frames: Frames, action: int) -> None:
+    moving = changes(aside)
+    columns = rr.Transform3D.columns(translation=_sideways(aside[moving]))
+    stream.put_many(_part(part), frames.times[moving], action, columns)
 
 
-def _part(outline: Outline) -> str:
-    return f"arm/{rr.escape_entity_path_part(outline.part)}"
+def _body(name: str) -> str:
+    return f"world/arm/{rr.escape_entity_path_part(name)}"
+
+
+def _part(name: str) -> str:
+    return f"top/arm/{rr.escape_entity_path_part(name)}"
 
 
 def _about_vertical(yaw: FloatArray) -> FloatArray:
@@ -64,34 +75,24 @@ def _sideways(distance: FloatArray) -> FloatArray:
     return np.column_stack([nothing, distance, nothing])
 
 
-def _prism(outline: Outline, color: palette.Color) -> rr.Mesh3D:
-    """An outline made solid, from its bottom to its top."""
-    points = outline.vertices
-    low, high = (np.column_stack([points, np.full(len(points), z)]) for z in (outline.bottom, outline.top))
-    quads = np.stack([low, np.roll(low, -1, axis=0), np.roll(high, -1, axis=0), high], axis=1)
-    faces = [high, low[::-1], *quads]
-    return _flat_shaded(faces, color)
-
-
-def _flat_shaded(faces: list[FloatArray], color: palette.Color) -> rr.Mesh3D:
-    """A mesh of convex faces ``(k, 3)``, counter-clockwise seen from outside, each with corners of its own."""
-    normals = [np.repeat(_normal(face)[None], len(face), axis=0) for face in faces]
-    starts = np.cumsum([0, *(len(face) for face in faces[:-1])])
-    fans = [start + _fan(len(face)) for start, face in zip(starts, faces, strict=True)]
-    return rr.Mesh3D(
-        vertex_positions=np.vstack(faces),
-        vertex_normals=np.vstack(normals),
-        triangle_indices=np.vstack(fans),
-        albedo_factor=color,
-    )
-
-
-def _normal(face: FloatArray) -> FloatArray:
-    across = np.cross(face[1] - face[0], face[2] - face[0])
-    return np.asarray(across / np.linalg.norm(across))
-
-
-def _fan(corners: int) -> np.ndarray[tuple[int, int], np.dtype[np.int64]]:
-    """Triangles ``(k - 2, 3)`` that cover a convex polygon of ``k`` corners."""
-    second = np.arange(1, corners - 1)
-    return np.column_stack([np.zeros_like(second), second, second + 1])
+def _solid(piece: Piece) -> rr.AsComponents:
+    """A piece as the viewer has it."""
+    shape, color = piece.shape, piece.color
+    if not isinstance(shape, Primitive):
+        return rr.Mesh3D(
+            vertex_positions=shape.vertices,
+            vertex_normals=normals(shape),
+            triangle_indices=shape.triangles,
+            albedo_factor=color,
+        )
+    at: dict[str, Any] = {"centers": [shape.pose[:3]], "quaternions": [quaternions_xyzw(shape.pose)]}
+    match shape.kind:
+        case "box":
+            half = np.array([shape.size]) / 2.0
+            return rr.Boxes3D(half_sizes=half, colors=color, fill_mode="solid", **at)
+        case "cylinder":
+            radius, length = shape.size
+            return rr.Cylinders3D(radii=[radius], lengths=[length], colors=color, fill_mode="solid", **at)
+        case _:
+            half = np.full((1, 3), shape.size[0])
+            return rr.Ellipsoids3D(half_sizes=half, colors=color, fill_mode="solid", **at)

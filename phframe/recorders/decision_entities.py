@@ -34,13 +34,6 @@ def log_decision(stream: Stream, scene: Scene, step: Step) -> None:
     _log_expected(stream, scene, step)
 
 
-def components_of(decision: Decision) -> dict[str, int]:
-    """The component of each member, by id; empty where there are none."""
-    if decision.labels is None:
-        return {}
-    return {member: int(label) for member, label in zip(decision.members, decision.labels, strict=True)}
-
-
 def _log_corridor(stream: Stream, corridor: Corridor | None) -> None:
     fill, edges, slab, radius = _no_lines(), _no_lines(), rr.Boxes3D(half_sizes=[]), 0.0
     if corridor is not None:

@@ -9,6 +9,7 @@ import rerun as rr
 
 from phframe.core import Condition, Scene, State
 from phframe.recorders import palette
+from phframe.recorders.coloring import condition_shown, object_color
 from phframe.recorders.frames import Frames, changes, quaternions_xyzw
 from phframe.recorders.stream import Stream
 
@@ -46,11 +47,11 @@ def log_colors(
     stream: Stream, scene: Scene, state: State, components: Mapping[str, int], chosen: Sequence[str]
 ) -> None:
     """Colour objects by component, the target and what fell in their own; a ring around the chosen and the fallen."""
-    colors = [_color(scene, object_id, state, components) for object_id in scene.ids]
+    colors = [object_color(scene, object_id, state, components) for object_id in scene.ids]
     for object_id, color in zip(scene.ids, colors, strict=True):
         stream.put(_entity(object_id), rr.Cylinders3D.from_fields(colors=[color]))
     stream.put(DISCS, rr.Points2D.from_fields(colors=colors))
-    rings = [_ring(object_id, _condition(scene, object_id, state), chosen) for object_id in scene.ids]
+    rings = [_ring(object_id, condition_shown(scene, object_id, state), chosen) for object_id in scene.ids]
     # An object that is not marked has a ring of no size, hidden under its disc: 2D lines are never transparent.
     sizes = [radius + RING_GAP if ring else 0.0 for radius, ring in zip(scene.radii, rings, strict=True)]
     shown = [ring or palette.OBJECT for ring in rings]
@@ -67,20 +68,6 @@ def short_names(scene: Scene) -> list[str]:
 
 def _entity(object_id: str) -> str:
     return f"world/objects/{rr.escape_entity_path_part(object_id)}"
-
-
-def _condition(scene: Scene, object_id: str, state: State) -> Condition:
-    """What became of an object; one that is held did not fall."""
-    return Condition.UPRIGHT if object_id == state.held else state.conditions[scene.index(object_id)]
-
-
-def _color(scene: Scene, object_id: str, state: State, components: Mapping[str, int]) -> palette.Color:
-    fallen = palette.fallen_color(_condition(scene, object_id, state))
-    if fallen is not None:
-        return fallen
-    if object_id == scene.target:
-        return palette.TARGET
-    return palette.component_color(components[object_id]) if object_id in components else palette.OBJECT
 
 
 def _ring(object_id: str, condition: Condition, chosen: Sequence[str]) -> palette.Color | None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import rerun as rr
 
-from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Step
+from phframe.core import Episode, Plan, Scene, Setup, State, Step
 from phframe.recorders import (
     arm_entities,
     decision_entities,
@@ -20,10 +20,12 @@ from phframe.recorders import (
     series,
     shelf_entities,
 )
+from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.blueprint import blueprint_for
-from phframe.recorders.frames import Frames, parked_arm
+from phframe.recorders.coloring import components_of
+from phframe.recorders.frames import Frames
 from phframe.recorders.stream import Stream
-from phframe.runtime.observer import Observer
+from phframe.runtime.observer import MountedArm, Observer
 
 LOG = "story/log"
 PAGE = "story/decision"
@@ -43,19 +45,19 @@ class RerunRecorder(Observer):
         self._stream: Stream | None = None
         self._seconds, self._actions, self._plans = 0.0, 0, 0
 
-    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
         """Create the file and write down what stays as it is, and the scene as it begins.
 
         Raises:
-            InputError: If the file cannot be written.
+            InputError: If the file cannot be written, or the arm cannot be drawn.
         """
-        self._scene, self._arm, self._parked = scene, arm, parked_arm(scene, arm)
-        stream = Stream(self.path, scene.name, blueprint_for(scene.shelf), _properties(setup))
+        self._scene, self._arm, self._bodies = scene, arm.shape, bodies_of(arm, scene)
+        stream = Stream(self.path, scene.name, blueprint_for(scene.shelf, arm.mount), _properties(setup))
         self._stream = stream
         self._seconds, self._actions, self._plans = 0.0, 0, 0
         shelf_entities.log_shelf(stream, scene.shelf)
         object_entities.log_objects(stream, scene)
-        arm_entities.log_arm(stream, arm)
+        arm_entities.log_arm(stream, self._arm, self._bodies)
         series.log_styles(stream)
         self._show_beginning(stream, narration.opening_line(scene, setup))
 
@@ -97,7 +99,7 @@ class RerunRecorder(Observer):
         object_entities.log_colors(stream, self._scene, initial, {}, ())
         series.log_beginning(stream)
         self._say(stream, line, "INFO")
-        self._log_motion(stream, Frames.gather(np.zeros(1), [initial], self._parked))
+        self._log_motion(stream, Frames.gather(np.zeros(1), [initial], self._bodies.parked))
 
     def _show_decision(self, stream: Stream, step: Step) -> None:
         decision_entities.log_decision(stream, self._scene, step)
@@ -116,7 +118,7 @@ class RerunRecorder(Observer):
                 states.append(state)
         finally:
             moments = self._seconds + np.array(times)
-            self._write_frames(stream, step, Frames.gather(moments, states, self._parked))
+            self._write_frames(stream, step, Frames.gather(moments, states, self._bodies.parked))
             self._seconds = float(moments[-1])
 
     def _write_frames(self, stream: Stream, step: Step, frames: Frames) -> None:
@@ -135,10 +137,10 @@ class RerunRecorder(Observer):
 
     def _log_motion(self, stream: Stream, frames: Frames) -> None:
         object_entities.log_motion(stream, self._scene, frames, self._actions)
-        arm_entities.log_motion(stream, self._arm, frames, self._actions)
+        arm_entities.log_motion(stream, self._arm, self._bodies, frames, self._actions)
 
     def _color(self, stream: Stream, step: Step, state: State) -> None:
-        components = decision_entities.components_of(step.decision)
+        components = components_of(step.decision)
         object_entities.log_colors(stream, self._scene, state, components, step.decision.chosen)
 
     def _show_page(self, stream: Stream, step: Step, *, done: bool) -> None:

@@ -70,6 +70,13 @@ EXTENSIONS = [
         "A recording for the Rerun viewer",
         extra="rerun",
     ),
+    Extension(
+        Kind.RECORDER,
+        "video",
+        "phframe.recorders.video_:VideoRecorder",
+        "A video, or a small moving picture, drawn off screen by MuJoCo",
+        extra="video",
+    ),
 ]
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -28,16 +28,18 @@ from phframe.core import (
     Step,
     TopologyEngine,
     Unreachable,
+    Watch,
 )
 from phframe.pushing.corridor import corridor_half_width, find_corridor
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.outcome import grasp_outcome, is_cleared
 from phframe.pushing.reach import Grasp, grasp_action
 from phframe.runtime.execution_world import ExecutionWorld
-from phframe.runtime.observer import Observer
+from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
-from phframe.runtime.replay import replay
-from phframe.runtime.world import WorldSpec
+
+FRAME_PERIOD = 1.0 / 30.0
+"""Of the world's time, between the moments that observers are shown (s)."""
 
 
 def run_episode(
@@ -88,7 +90,8 @@ class _Run:
         self._state = self._planned_from = self._scene.initial_state()
 
     def episode(self) -> Episode:
-        self._tell(lambda observer: observer.begin(self._scene, self._setup, self._execution.arm.shape))
+        arm = MountedArm(self._execution.arm, self._execution.mount, self._execution.by_joints)
+        self._tell(lambda observer: observer.begin(self._scene, self._setup, arm))
         self._state = self._execution.start()
         status, reason = self._outcome()
         spent = self._execution.lifting_time + self._planning.lifting_time
@@ -216,11 +219,13 @@ class _Run:
         if isinstance(trajectory, Unreachable):
             self._rejected = (*self._rejected, action)
             return f"the arm cannot do {action.name}: {trajectory.why}"
-        motion = self._execution.execute(trajectory)
+        frames: list[tuple[float, State]] = []
+        watch = Watch(FRAME_PERIOD, lambda time, state: frames.append((time, state))) if self._observers else None
+        motion = self._execution.execute(trajectory, watch)
         self._state = self._execution.observe()
         step = Step(action, trajectory, before, self._state, expected, motion, decision, len(self._plans) - 1)
         self._steps.append(step)
-        self._tell(lambda observer: observer.stepped(step, _Frames(self._planning, self._execution.spec, step)))
+        self._tell(lambda observer: observer.stepped(step, frames))
         return ""
 
     def _deviation(self, expected: State, action: Action) -> str:
@@ -240,22 +245,6 @@ class _Run:
     def _tell(self, what: Callable[[Observer], None]) -> None:
         for observer in self._observers:
             what(observer)
-
-
-@dataclass(frozen=True, slots=True)
-class _Frames:
-    """Frames of a step, replayed each time somebody asks for them, in a world like the one it was carried out in."""
-
-    planning: PlanningWorld
-    spec: WorldSpec
-    step: Step
-
-    def __iter__(self) -> Iterator[tuple[float, State]]:
-        if self.planning.spec == self.spec:
-            yield from replay(self.planning, self.step.before, self.step.action)
-            return
-        with PlanningWorld(self.spec) as world:
-            yield from replay(world, self.step.before, self.step.action)
 
 
 def _end_of_reach(step: Step) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from phframe.core import Action, Motion, State, Trajectory, Unreachable, compose, inverse, planar_pose
+from phframe.core import Action, Motion, State, Trajectory, Unreachable, Watch, compose, inverse, planar_pose
 from phframe.runtime.world import World
 
 
@@ -15,9 +15,9 @@ class ExecutionWorld(World):
         """Put the world in the scene's initial state."""
         return self.physics.restore(self.scene.initial_state())
 
-    def execute(self, trajectory: Trajectory) -> Motion:
+    def execute(self, trajectory: Trajectory, watch: Watch | None = None) -> Motion:
         """Follow a trajectory from where the world is."""
-        return self.follow(trajectory)
+        return self.follow(trajectory, watch)
 
     def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
         """As every world; where no motion planner says so, once the arm is known to reach each of the path's poses."""

@@ -3,17 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
 
-from phframe.core import ArmShape, Episode, Plan, Scene, Setup, State, Step
+from phframe.core import ArmModel, ArmShape, Episode, Mount, Plan, Scene, Setup, State, Step
 
 Frames = Iterable[tuple[float, State]]
-"""Seconds since an action began, and the world then; replayed when they are asked for."""
+"""Seconds since an action began, and the world then: at its beginning, some thirty times a second, and at its end."""
+
+
+@dataclass(frozen=True, slots=True)
+class MountedArm:
+    """The arm that carries out an episode, and where it stands.
+
+    Attributes:
+        model: The arm.
+        mount: Where its base stands in the shelf frame.
+        by_joints: Whether its joints are driven, so that the states give them; else its outline moves.
+    """
+
+    model: ArmModel[Any]
+    mount: Mount
+    by_joints: bool
+
+    @property
+    def shape(self) -> ArmShape:
+        """The arm seen from above."""
+        return self.model.shape
 
 
 class Observer:
     """Told of what happens, in this order; each method does nothing unless it is overridden."""
 
-    def begin(self, scene: Scene, setup: Setup, arm: ArmShape) -> None:
+    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
         """An episode begins."""
 
     def planned(self, plan: Plan) -> None:

@@ -128,6 +128,11 @@ class World:
         """Whether a motion planner finds joints for the gripper's paths."""
         return self._motion_planner is not None
 
+    @property
+    def by_joints(self) -> bool:
+        """Whether the engine drives the arm's joints, not its outline."""
+        return self._motion_planner is not None
+
     def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
         """What to drive to carry out an action from a state: the way to the path's beginning, and the path."""
         if (refusal := self._refuse_opening(action)) is not None:

@@ -8,8 +8,9 @@ from contextlib import closing
 import pytest
 
 from phframe.cli.progress import Progress
-from phframe.core import ArmShape, Plan, Scene, Setup, Status
+from phframe.core import Mount, Plan, Scene, Setup, Status
 from phframe.registry import Kind, create
+from phframe.runtime.observer import MountedArm
 
 SETUP = Setup("phia", "pymunk", "planar", "ripser", 0)
 
@@ -26,40 +27,39 @@ def scene() -> Scene:
 
 
 @pytest.fixture
-def shape() -> ArmShape:
-    shape: ArmShape = create(Kind.ARM, "planar").shape
-    return shape
+def arm() -> MountedArm:
+    return MountedArm(create(Kind.ARM, "planar"), Mount(-0.1, 0.3, 0.06, 0.0), by_joints=False)
 
 
-def _watch(progress: Progress, scene: Scene, shape: ArmShape, seconds: float) -> None:
+def _watch(progress: Progress, scene: Scene, arm: MountedArm, seconds: float) -> None:
     with closing(progress):
         progress.start()
-        progress.begin(scene, SETUP, shape)
+        progress.begin(scene, SETUP, arm)
         time.sleep(seconds)
         progress.planned(Plan(Status.FAILED, "no way"))
 
 
-def test_a_terminal_is_told_what_is_going_on(monkeypatch: pytest.MonkeyPatch, scene: Scene, shape: ArmShape) -> None:
+def test_a_terminal_is_told_what_is_going_on(monkeypatch: pytest.MonkeyPatch, scene: Scene, arm: MountedArm) -> None:
     monkeypatch.setattr(sys, "stderr", screen := Terminal())
     monkeypatch.setenv("TERM", "xterm")
-    _watch(Progress(after=0.0), scene, shape, 0.3)
+    _watch(Progress(after=0.0), scene, arm, 0.3)
     assert "Planning with phia for vieira/basic" in screen.getvalue()
 
 
 def test_nothing_is_shown_of_what_is_quickly_done(
-    monkeypatch: pytest.MonkeyPatch, scene: Scene, shape: ArmShape
+    monkeypatch: pytest.MonkeyPatch, scene: Scene, arm: MountedArm
 ) -> None:
     monkeypatch.setattr(sys, "stderr", screen := Terminal())
     monkeypatch.setenv("TERM", "xterm")
     began = time.monotonic()
-    _watch(Progress(), scene, shape, 0.0)
+    _watch(Progress(), scene, arm, 0.0)
     assert "Planning" not in screen.getvalue()
     assert time.monotonic() - began < 0.5
 
 
 def test_nothing_is_shown_where_there_is_no_terminal(
-    monkeypatch: pytest.MonkeyPatch, scene: Scene, shape: ArmShape
+    monkeypatch: pytest.MonkeyPatch, scene: Scene, arm: MountedArm
 ) -> None:
     monkeypatch.setattr(sys, "stderr", screen := io.StringIO())
-    _watch(Progress(after=0.0), scene, shape, 0.1)
+    _watch(Progress(after=0.0), scene, arm, 0.1)
     assert screen.getvalue() == ""

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.core import (
     Action,
-    ArmShape,
     ArmState,
     Condition,
     Contact,
@@ -22,7 +22,6 @@ from phframe.core import (
     FloatArray,
     GripperPath,
     Motion,
-    Outline,
     PersistenceDiagram,
     Phase,
     PhaseRule,
@@ -38,6 +37,7 @@ from phframe.core import (
     planar_pose,
     time_path,
 )
+from phframe.runtime.observer import MountedArm
 
 PERIOD = 1.0 / 30.0
 PLACES = {
@@ -60,7 +60,7 @@ class Recorded:
     """An episode, the arm that did it, and the frames of each of its steps."""
 
     episode: Episode
-    arm: ArmShape
+    arm: MountedArm
     frames: tuple[tuple[tuple[float, State], ...], ...]
 
 
@@ -92,19 +92,13 @@ def hand_made() -> Recorded:
         ),
     )
     episode = Episode(SCENE, SETUP, Status.RETRIEVED, "", plans, steps)
-    return Recorded(episode, arm_shape(), tuple(tuple(_frames(step)) for step in steps))
+    return Recorded(episode, mounted(), tuple(tuple(_frames(step)) for step in steps))
 
 
-def arm_shape() -> ArmShape:
-    """Two fingers, a palm and a link."""
-    fingers = _box("left finger", -0.07, 0.0, 0.0, 0.009, 1), _box("right finger", -0.07, 0.0, -0.009, 0.0, -1)
-    return ArmShape(
-        (*fingers, _box("palm", -0.11, -0.07, -0.05, 0.05), _box("link", -1.0, -0.11, -0.06, 0.06)), 0.12, 0.018, 0.08
-    )
-
-
-def _box(part: str, x0: float, x1: float, y0: float, y1: float, side: int = 0) -> Outline:
-    return Outline(part, np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]), side)
+def mounted(*, by_joints: bool = False) -> MountedArm:
+    """The planar arm: two fingers, a palm and a link."""
+    arm = PlanarArm(PlanarArmOptions())
+    return MountedArm(arm, arm.default_mount(SCENE.shelf), by_joints)
 
 
 def _first_decision() -> Decision:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from phframe.core import Condition
 from phframe.recorders.frames import Frames, changes, parked_arm, quaternions_xyzw
-from tests.recorders.synthetic_episode import SCENE, arm_shape, hand_made
+from tests.recorders.synthetic_episode import SCENE, hand_made, mounted
 
 
 @given(st.lists(st.integers(0, 2), min_size=1, max_size=30))
@@ -26,14 +26,14 @@ def test_only_what_changes_is_kept() -> None:
 def test_falls_are_the_frames_at_which_a_condition_changes() -> None:
     made = hand_made()
     times, states = zip(*made.frames[1], strict=True)
-    frames = Frames.gather(np.array(times), states, parked_arm(SCENE, made.arm))
+    frames = Frames.gather(np.array(times), states, parked_arm(SCENE, made.arm.shape))
     (fall,) = frames.falls
     assert Condition.TOPPLED in frames.states[fall].conditions
     assert Condition.TOPPLED not in frames.states[fall - 1].conditions
 
 
 def test_parked_arm_stands_before_the_mouth() -> None:
-    arm = arm_shape()
+    arm = mounted().shape
     frames = Frames.gather(np.zeros(1), [SCENE.initial_state()], parked_arm(SCENE, arm))
     assert frames.grippers[0, 0] < 0.0
     assert frames.openings[0] == arm.min_opening

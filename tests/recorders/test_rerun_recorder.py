@@ -17,7 +17,7 @@ from phframe.core import Condition, InputError, State
 from phframe.recorders import palette
 from phframe.recorders.rerun_ import RerunRecorder
 from tests.recorders.reading import Recording
-from tests.recorders.synthetic_episode import SCENE, SETUP, Recorded, hand_made
+from tests.recorders.synthetic_episode import SCENE, SETUP, Recorded, hand_made, mounted
 
 pytestmark = pytest.mark.needs_rerun
 
@@ -59,9 +59,8 @@ def test_everything_there_is_to_see_has_an_entity(recording: Recording) -> None:
     expected = {
         *(f"/world/objects/{i}" for i in SCENE.ids),
         *(f"/world/shelf/{part}" for part in ("board", "walls", "edges")),
-        *(f"/{view}/arm" for view in ("world", "top")),
-        "/world/arm/link",
-        "/world/arm/left\\ finger",
+        "/top/arm",
+        *(f"/world/arm/{part}{piece}" for part in ("link", "palm", "left\\ finger") for piece in ("", "/0")),
         "/top/arm/palm/edge",
         "/top/objects",
         "/top/marks",
@@ -93,12 +92,24 @@ def test_every_moving_object_is_where_the_frames_say(recording: Recording, made:
     assert all(np.allclose(written, really, atol=1e-6) for written, really in compared)
 
 
+def test_what_tilts_is_tilted(made: Recorded, tmp_path: Path) -> None:
+    step, row = made.episode.steps[1], SCENE.index("object_3")
+    poses = step.after.poses.copy()
+    poses[row, 2:] = [0.03, np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0]
+    recorder = RerunRecorder(tmp_path / "tilted.rrd")
+    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.stepped(replace(step, after=replace(step.after, poses=poses)), made.frames[1])
+    recorder.close()
+    turned = Recording(recorder.path).rows("/world/objects/object_3", "quaternion")[-1][2][0]
+    np.testing.assert_allclose(turned, [np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)], atol=1e-6)
+
+
 def test_what_stands_still_is_not_written_again_and_again(recording: Recording) -> None:
     assert len(recording.rows("/world/objects/object_4", "translation")) == 4
 
 
 def test_actions_follow_each_other_in_time(recording: Recording, made: Recorded) -> None:
-    rows = recording.rows("/world/arm", "translation")
+    rows = recording.rows("/world/arm/link", "translation")
     durations = [step.motion.duration for step in made.episode.steps]
     assert [action for _, action, _ in rows] == sorted(action for _, action, _ in rows)
     assert rows[-1][1] == 3
@@ -111,11 +122,16 @@ def test_actions_follow_each_other_in_time(recording: Recording, made: Recorded)
 def test_arm_ends_where_the_state_after_says(recording: Recording, made: Recorded) -> None:
     arm = made.episode.final_state.arm
     assert arm is not None
-    for view, height in (("world", made.arm.height), ("top", 0.0)):
-        place = recording.rows(f"/{view}/arm", "translation")[-1][2][0]
-        np.testing.assert_allclose(place, [*arm.gripper[:2], height], atol=1e-6)
-        aside = recording.rows(f"/{view}/arm/left\\ finger", "translation")[-1][2][0]
-        np.testing.assert_allclose(aside, [0.0, arm.opening / 2.0, 0.0], atol=1e-6)
+    x, y, height = *arm.gripper[:2], made.arm.shape.height
+    places = {
+        "/top/arm": (x, y, 0.0),
+        "/top/arm/left\\ finger": (0.0, arm.opening / 2.0, 0.0),
+        "/world/arm/link": (x, y, height),
+        "/world/arm/left\\ finger": (x, y + arm.opening / 2.0, height),
+        "/world/arm/right\\ finger": (x, y - arm.opening / 2.0, height),
+    }
+    for entity, place in places.items():
+        np.testing.assert_allclose(recording.rows(entity, "translation")[-1][2][0], place, atol=1e-6)
 
 
 def test_members_take_the_colour_of_their_component(recording: Recording) -> None:
@@ -218,7 +234,7 @@ def test_interrupted_action_keeps_the_frames_seen(made: Recorded, tmp_path: Path
     with pytest.raises(KeyboardInterrupt):
         recorder.stepped(made.episode.steps[0], interrupted())
     recorder.close()
-    rows = Recording(recorder.path).rows("/world/arm", "translation")
+    rows = Recording(recorder.path).rows("/world/arm/link", "translation")
     assert rows[-1][0] == pytest.approx(made.frames[0][59][0])
 
 
@@ -269,3 +285,28 @@ def test_decision_without_anything_and_no_frames(made: Recorded, tmp_path: Path)
     rows = partial(Recording(recorder.path).rows)
     assert rows("/top/decision/corridor/area", "strips")[-1][2] == []
     assert rows("/world/objects/object_1", "translation")[-1][0] == pytest.approx(step.motion.duration)
+
+
+def test_links_move_joint_by_joint_where_the_states_have_joints(made: Recorded, tmp_path: Path) -> None:
+    arm = mounted(by_joints=True)
+
+    def with_joints(state: State) -> State:
+        assert state.arm is not None
+        x, y, yaw = state.arm.gripper
+        return replace(state, arm=replace(state.arm, joints=np.array([x - arm.mount.x, y - arm.mount.y, yaw])))
+
+    recorder, step = RerunRecorder(tmp_path / "joints.rrd"), made.episode.steps[0]
+    recorder.begin(SCENE, SETUP, arm)
+    recorder.stepped(replace(step, after=with_joints(step.after)), [(t, with_joints(s)) for t, s in made.frames[0]])
+    recorder.close()
+    recording = Recording(recorder.path)
+    assert {"/world/arm/fingertip/0", "/world/arm/left_finger_link/0", "/top/arm/palm/edge"} <= recording.entities
+    assert "/world/arm/palm" not in recording.entities
+    rows = recording.rows("/world/arm/fingertip", "translation")
+    written = {round(time, 6): place[0] for time, _, place in rows}
+    np.testing.assert_allclose(rows[0][2][0], arm.mount.pose[:3], atol=1e-6, err_msg="parked at home")
+    compared = [(time, state.arm) for time, state in made.frames[0] if round(time, 6) in written and time > 0.0]
+    assert len(compared) > 20
+    for time, arm_state in compared:
+        assert arm_state is not None
+        np.testing.assert_allclose(written[round(time, 6)], [*arm_state.gripper[:2], 0.06], atol=1e-6)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
 import phframe
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.core import ArmModel, IncompatibleError, JointTrajectory, OptionError, Status
+from phframe.core import ArmModel, IncompatibleError, JointTrajectory, OptionError, Scene, Setup, Status, Step
+from phframe.runtime.observer import Frames, MountedArm, Observer
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.summary import summarize
 from phframe.runtime.world import World, WorldSpec
@@ -90,3 +92,23 @@ def test_options_of_what_is_not_there_are_refused() -> None:
         phframe.solve(SCENE, options={"plan_physics": {}})
     with pytest.raises(OptionError, match="has no option 'stepp'"):
         phframe.solve(SCENE, backend="mujoco", options={"plan_backend": {"stepp": 1}})
+
+
+def test_observers_are_told_of_the_joints_and_frames_end_where_the_action_did() -> None:
+    class Looking(Observer):
+        arms: ClassVar[list[MountedArm]] = []
+
+        def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+            self.arms.append(arm)
+
+        def stepped(self, step: Step, frames: Frames) -> None:
+            states = [state for _, state in frames]
+            joints = [state.arm is not None and state.arm.joints is not None for state in states[1:]]
+            assert set(joints) == {self.arms[-1].by_joints}
+            assert states[-1] == step.after
+
+    looked_at = phframe.solve("vieira/simple-03", backend="mujoco", observers=[Looking()])
+    assert looked_at == phframe.solve("vieira/simple-03", backend="mujoco")
+    phframe.solve("vieira/simple-03", observers=[Looking()])
+    assert [arm.by_joints for arm in Looking.arms] == [True, False]
+    assert Looking.arms[0].mount == Looking.arms[0].model.default_mount(find_scene("vieira/simple-03").shelf)

@@ -7,7 +7,18 @@ from pathlib import Path
 
 import pytest
 
-from phframe.core import Action, Motion, Options, Plan, Planner, SimulationDivergedError, Status, Task, Trajectory
+from phframe.core import (
+    Action,
+    Motion,
+    Options,
+    Plan,
+    Planner,
+    SimulationDivergedError,
+    Status,
+    Task,
+    Trajectory,
+    Watch,
+)
 from phframe.planners.phia import PHIA
 from phframe.pushing.options import PushingOptions
 from phframe.runtime.execution_world import ExecutionWorld
@@ -91,11 +102,11 @@ def test_a_simulation_that_diverges_while_executing_is_a_result_with_what_was_do
     class Breaks(ExecutionWorld):
         done = 0
 
-        def execute(self, trajectory: Trajectory) -> Motion:
+        def execute(self, trajectory: Trajectory, watch: Watch | None = None) -> Motion:
             self.done += 1
             if self.done == 2:
                 raise SimulationDivergedError("the simulation diverged: 'o1' moves at 1e+09 m/s")
-            return super().execute(trajectory)
+            return super().execute(trajectory, watch)
 
     episode = run(Breaks(SPEC))
     assert (episode.status, len(episode.steps)) == (Status.FAILED, 1)

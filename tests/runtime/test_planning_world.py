@@ -11,10 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from phframe.core import Action, Budget, Condition, InputError, Plan, State, Unreachable
+from phframe.core import Action, Budget, Condition, InputError, Plan, State, Unreachable, Watch
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
-from phframe.runtime.replay import replay
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.world import WorldSpec
 from tests.runtime.worlds import BASIC
@@ -65,7 +64,8 @@ def test_actions_move_something_and_states_go_on_from_one_another() -> None:
 @pytest.mark.parametrize("number", [0, 1, len(PAIRS) - 1])
 @pytest.mark.parametrize("period", [1 / 30, 0.011])
 def test_frames_end_in_the_state_that_the_action_ends_in(number: int, period: float) -> None:
-    frames = list(replay(WORLD, *PAIRS[number], period))
+    frames: list[tuple[float, State]] = []
+    WORLD.apply(*PAIRS[number], Watch(period, lambda time, state: frames.append((time, state))))
     times = [time for time, _ in frames]
     assert times == sorted(times)
     assert times[0] == 0.0

@@ -20,10 +20,10 @@ from phframe.core import (
     PhaseRule,
     State,
     UnknownNameError,
+    Watch,
 )
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.planning_world import PlanningWorld
-from phframe.runtime.replay import replay
 from phframe.runtime.world import World, WorldSpec
 from tests.pushing.parts import ARM, boundary, posed, scene_of
 from tests.runtime.worlds import BASIC
@@ -60,7 +60,8 @@ def test_after_a_stall_the_arm_is_outside_and_the_objects_are_in_place(action: A
         assert foremost(after) <= 1e-3, "the whole arm is before the mouth"
         assert after.on_board.all()
         assert (after.positions[:, 1] <= 0.6 - 0.03 + 2e-3).all(), "nothing is squeezed into the wall"
-        frames = list(replay(world, start, action))
+        frames: list[tuple[float, State]] = []
+        assert world.apply(start, action, Watch(1 / 30, lambda time, state: frames.append((time, state)))) == transition
         times = [time for time, _ in frames]
         assert times == sorted(times)
         assert times[-1] == pytest.approx(motion.duration)

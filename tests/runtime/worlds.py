@@ -21,6 +21,7 @@ from phframe.core import (
     Task,
     Trajectory,
     Unreachable,
+    Watch,
 )
 from phframe.planners.phia import PHIA
 from phframe.pushing.options import PushingOptions
@@ -48,8 +49,8 @@ class Meddling(ExecutionWorld):
         super().__init__(spec)
         self._meddle, self._done = meddle, 0
 
-    def execute(self, trajectory: Trajectory) -> Motion:
-        motion = super().execute(trajectory)
+    def execute(self, trajectory: Trajectory, watch: Watch | None = None) -> Motion:
+        motion = super().execute(trajectory, watch)
         self._done += 1
         if change := self._meddle.get(self._done):
             self.physics.restore(change(self.physics.observe()))

@@ -7,6 +7,7 @@ from phframe.arms.articulated_options import ArticulatedOptions
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import SIDES, Side, arm_joints, baxter_urdf, fingers, mirrored
 from phframe.arms.description import ArmDescription, Section, Stand
+from phframe.core import LinkMesh
 
 
 class BaxterOptions(ArticulatedOptions):
@@ -28,6 +29,12 @@ class Baxter(ArticulatedArm[BaxterOptions]):
         """From the table of figures."""
         side = self.options.side
         return _description(side), baxter_urdf(side)
+
+    def meshes(self) -> tuple[LinkMesh, ...]:
+        """Rethink's, where the extra ``meshes`` is installed."""
+        from phframe.arms.baxter.meshes import baxter_meshes
+
+        return baxter_meshes(self.options.side)
 
 
 def _description(side: Side) -> ArmDescription:
