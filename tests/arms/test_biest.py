@@ -157,18 +157,18 @@ def test_configurations_are_drawn_evenly_from_the_box_within_reach() -> None:
 def test_a_tree_grows_from_each_vertex_as_often_as_the_definition_says() -> None:
     """One round from the same crowded tree, many times: who was the parent, if a vertex was kept at all."""
     chosen, _ = planner(5, gaps=())
-    crowd = np.random.default_rng(1).normal((0.5, 0.0, 0.0), 0.05, (9, 3))
+    crowd = np.random.default_rng(1).normal((0.5, 0.0, 0.0), 0.25, (49, 3))
     planted = ExpansiveTree(3, chosen.trees[0].radius)
-    for q in (*crowd, np.array([0.5, 1.2, 1.2])):
+    for q in (*crowd, np.array([0.5, 1.8, 1.8])):
         planted.add(q)
     trials, expected = 3000, grown_from(planted, 20_000)
-    counts = np.zeros(11)
+    counts = np.zeros(51)
     for _ in range(trials):
         chosen._trees, chosen._turn = (copy.deepcopy(planted), ExpansiveTree(3, 1.0)), 0
         assert chosen._grown() is None
         tree = chosen.trees[0]
-        counts[tree.parents[10] if tree.size == 11 else 10] += 1
-    assert 0.1 < expected[10] < 0.9, "some are kept, some are not"
+        counts[tree.parents[50] if tree.size == 51 else 50] += 1
+    assert 0.1 < expected[50] < 0.9, "some are kept, some are not"
     assert chisquare(counts, trials * expected).pvalue > 1e-3
 
 

@@ -43,7 +43,7 @@ def solve(planner: str = DEFAULT, *, seed: int = 0, dof: int = 3, **changes: Any
     start[0], goal[0] = 0.4, len(gaps) + 0.6
     given: dict[str, Any] = {
         "start": start, "goals": goal[None], "lower": lower, "upper": upper, "valid": walls(*gaps), "planner": planner,
-        "resolution": RESOLUTION, "iterations": 3000, "rng": np.random.default_rng(seed),
+        "resolution": RESOLUTION, "iterations": 500 if "star" in planner else 3000, "rng": np.random.default_rng(seed),
     }  # fmt: skip
     return joint_path(**{**given, **changes})
 
@@ -167,6 +167,7 @@ def test_what_the_check_raises_comes_out_as_it_is(planner: str) -> None:
     with pytest.raises(OddError) as caught:
         solve(planner, valid=failing)
     assert caught.value is raised
+    raised.__traceback__ = None  # it holds what holds it, through OMPL, where no garbage collector can see
     assert solve(planner) is not None, "and all is well afterwards"
 
 
@@ -227,7 +228,7 @@ def test_an_unknown_planner_is_answered_with_those_there_are() -> None:
 
 def test_without_ompl_the_error_names_the_install_line(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "ompl", None)
-    monkeypatch.delitem(sys.modules, "phframe.arms.ompl_", raising=False)
+    monkeypatch.delitem(sys.modules, "ompl.base", raising=False)
     with pytest.raises(NotInstalledError, match=r"'RRTConnect' needs ompl, which is not installed.*phframe\[ompl\]"):
         ask()
 
