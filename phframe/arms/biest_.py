@@ -82,25 +82,27 @@ class BiEST(ob.Planner):  # type: ignore[misc] # OMPL's types are there only whe
                 tree.add(self._values(state))
 
     def _grown(self) -> FloatArray | None:
-        """The path ``(k, dof)`` if the tree whose turn it is grew and met the other; one that grew gives up its turn."""
+        """The path ``(k, dof)`` if the tree whose turn it is grew and met the other."""
         tree, other = self._trees[self._turn], self._trees[1 - self._turn]
         parent = tree.picked(self._rng.random())
         q = self._drawn_near(tree.vertices[parent])
         if self._rng.random() >= tree.acceptance(q):
-            return None
-        met = None
-        if self._is_edge(tree.vertices[parent], q):
-            vertex = tree.add(q, parent)
-            met = next((v for v in other.near(q, self._reach).tolist() if self._is_edge(q, other.vertices[v])), None)
+            return None  # still its turn, as in OMPL
         self._turn = 1 - self._turn
-        if met is None:
+        if not self._is_edge(tree.vertices[parent], q):
             return None
-        halves = [tree.branch(vertex)[::-1], other.branch(met)]
-        return np.concatenate(halves) if tree is self._trees[0] else np.concatenate(halves)[::-1]
+        vertex = tree.add(q, parent)
+        met = next((v for v in other.near(q, self._reach).tolist() if self._is_edge(q, other.vertices[v])), None)
+        return None if met is None else self._joined(*((vertex, met) if tree is self._trees[0] else (met, vertex)))
+
+    def _joined(self, ahead: int, behind: int) -> FloatArray:
+        """The path that leads through a vertex of the one tree to one of the other."""
+        return np.concatenate([self._trees[0].branch(ahead)[::-1], self._trees[1].branch(behind)])
 
     def _drawn_near(self, q: FloatArray) -> FloatArray:
         """Even in the box about ``q``, cut off at the bounds."""
-        return self._rng.uniform(np.maximum(self._lower, q - self._reach), np.minimum(self._upper, q + self._reach))
+        box = np.maximum(self._lower, q - self._reach), np.minimum(self._upper, q + self._reach)
+        return np.asarray(self._rng.uniform(*box))
 
     def _is_edge(self, start: FloatArray, end: FloatArray) -> bool:
         for state, values in ((self._from, start), (self._to, end)):

@@ -39,6 +39,7 @@ class Edges:
         The end comes first, then the middle, then the middles of the halves: what is in the way is met early.
         """
         places = start + bisection(self.steps(start, end)) * (end - start)
+        places[0] = end  # to the last bit
         return all(map(self.valid, places))
 
 

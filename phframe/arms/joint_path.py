@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from importlib import import_module
 from types import ModuleType
 
 import numpy as np
@@ -88,12 +89,12 @@ def require_planner(name: str) -> ModuleType:
     if name not in PLANNERS:
         raise UnknownNameError("path planner", name, PLANNERS)
     try:
-        from ompl import base as _  # `import ompl` alone hides that a part of it is broken
-
-        from phframe.arms import ompl_
+        import_module("ompl.base")  # `import ompl` alone hides that a part of it is broken
     except ImportError as error:
         remedy = 'pip install "phframe[ompl]" (no wheels for Windows and CPython 3.14)'
         raise NotInstalledError(f"path planner {name!r}", "ompl", remedy) from error
+    from phframe.arms import ompl_
+
     return ompl_
 
 
