@@ -98,7 +98,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
 
         Postures are tried until one is narrow enough, the least wide of them is taken after so many attempts.
         """
-        self._collisions.place(state)
+        self._tracker.place(state)
         begin, opening = self._where(state)
         line = waypoints(path)
         router = Router(path, line, self._tracker)

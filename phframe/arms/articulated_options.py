@@ -26,4 +26,4 @@ class ArticulatedOptions(Options):
     joint_acceleration: Annotated[float, Field(gt=0.0, le=100.0)] = 6.0
     gripper_acceleration: Annotated[float, Field(gt=0.0, le=100.0)] = 3.0
     finger_acceleration: Annotated[float, Field(gt=0.0, le=100.0)] = 5.0
-    search: Annotated[int, Field(ge=1, le=1_000_000)] = 5000
+    search: Annotated[int, Field(ge=1, le=1_000_000)] = 20_000

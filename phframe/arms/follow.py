@@ -15,8 +15,12 @@ REACHED = 1e-6
 """What is left of position (m) and turn (rad) together when a pose counts as reached."""
 STEPS = 8
 """Most steps to one pose."""
-LONGEST_MOTION = 0.03
+LONGEST_DRIFT = 0.03
 """Of the joints for the sake of the posture while the gripper goes on by one spacing of a path (rad or m, norm)."""
+LONGEST_CHANGE = 0.003
+"""Of that from one spacing to the next: joints shall move smoothly."""
+HASTE = 5
+"""Spacings of a path that count as gone by for every improvement of a posture on the spot."""
 LONGEST_STEP = 0.2
 """Of any joint meanwhile (rad or m): more is another posture."""
 STIFFNESS = 1e-6
@@ -29,40 +33,51 @@ class Follower:
     Args:
         kinematics: Of the arm.
         posture: What is a good one.
+
+    Attributes:
+        posture: The same.
     """
 
     def __init__(self, kinematics: Kinematics, posture: Posture) -> None:
-        self._kinematics, self._posture = kinematics, posture
+        self._kinematics, self.posture = kinematics, posture
 
-    def next(self, q: FloatArray, target: Any, gripper: FloatArray, stride: int = 1) -> FloatArray | None:
-        """Joint values ``(dof,)`` for a pose near the one that ``q`` has, or None.
+    def next(
+        self, q: FloatArray, drift: FloatArray, target: Any, gripper: FloatArray, stride: int = 1
+    ) -> tuple[FloatArray, FloatArray] | None:
+        """Joint values for a pose near the one that ``q`` has, or None.
 
         Args:
             q: Joint values ``(dof,)``.
+            drift: How far the joints moved for the sake of the posture on the way to ``q``, for each spacing ``(dof,)``.
             target: The pose, as the kinematics want it.
             gripper: The same seen from above ``(3,)``, in the shelf frame.
             stride: How many spacings of a path it is away.
+
+        Returns:
+            The joint values, and the drift on the way to them.
         """
         kinematics, begin = self._kinematics, q
         for step in range(STEPS):
             error, jacobian = kinematics.error(q, target)
             if step and float(error @ error) < REACHED**2:
-                return q if float(np.abs(q - begin).max()) < LONGEST_STEP * stride**0.5 else None
+                return (q, drift) if float(np.abs(q - begin).max()) < LONGEST_STEP * stride**0.5 else None
             square = jacobian @ jacobian.T
             square[np.diag_indices(6)] += 1e-9
             move = jacobian.T @ np.linalg.solve(square, error)
             if step == 0 and len(q) > 6:
-                move = move + self._improvement(q, jacobian, gripper, LONGEST_MOTION * stride)
+                drift = self._drift(q, drift, jacobian, gripper, stride)
+                move = move + stride * drift
             q = np.clip(q + move, kinematics.lower, kinematics.upper)
         return None
 
     def improved(self, q: FloatArray, target: Any, gripper: FloatArray, times: int) -> FloatArray | None:
         """The posture after so many improvements with the gripper at one place, or None where it is lost."""
+        drift = np.zeros(len(q))
         for _ in range(times):
-            found = self.next(q, target, gripper)
+            found = self.next(q, drift, target, gripper, HASTE)
             if found is None:
                 return None
-            q = found
+            q, drift = found
         return q
 
     def joints_at_limits(self, q: FloatArray) -> Sequence[int]:
@@ -71,9 +86,13 @@ class Follower:
         at = (q <= lower + 1e-6) | (q >= upper - 1e-6)
         return [int(row) for row in np.flatnonzero(at)]
 
-    def _improvement(self, q: FloatArray, jacobian: FloatArray, gripper: FloatArray, longest: float) -> FloatArray:
-        """One Gauss-Newton step ``(dof,)`` along the self-motion, in which the gripper stays."""
+    def _drift(
+        self, q: FloatArray, drift: FloatArray, jacobian: FloatArray, gripper: FloatArray, stride: int
+    ) -> FloatArray:
+        """A Gauss-Newton step ``(dof,)`` along the self-motion, in which the gripper stays, not far from the last one."""
         direction = np.linalg.svd(jacobian)[2][-1]
-        residuals, slopes = self._posture.strain(q, direction, gripper)
-        step = -float(residuals @ slopes) / (float(slopes @ slopes) + STIFFNESS)
-        return np.asarray(np.clip(step, -longest, longest) * direction)
+        residuals, slopes = self.posture.strain(q, direction, gripper)
+        wanted = -float(residuals @ slopes) / (float(slopes @ slopes) + STIFFNESS) / stride
+        last, change = float(drift @ direction), LONGEST_CHANGE * stride
+        step = min(max(wanted, last - change, -LONGEST_DRIFT), last + change, LONGEST_DRIFT)
+        return np.asarray(step * direction)

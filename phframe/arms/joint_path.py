@@ -14,6 +14,7 @@ from phframe.arms.shortcut import shortened
 from phframe.core import ArmError, FloatArray, NotInstalledError, UnknownNameError
 
 DEFAULT = "RRTConnect"
+"""Among those that found a way in all of 65 problems on Baxter at a shelf, given rounds enough, the fastest."""
 PLANNERS = (
     "AORRTC", "BFMT", "BITstar", "BKPIECE1", "BiEST", "FMT", "InformedRRTstar", "KPIECE1", "LBKPIECE1", "RRT",
     "RRTConnect", "RRTstar", "SORRTstar",

@@ -16,8 +16,10 @@ from phframe.arms.biest_ import BiEST
 from phframe.arms.edges import Edges
 from phframe.core import FloatArray
 
-REACH = 0.2
-"""Longest edge of the planners that draw them one by one, as a share of the diagonal of the joint limits."""
+REACH = 0.1
+"""Longest edge that a planner draws, as a share of the diagonal of the joint limits; measured, on Baxter at a shelf."""
+BIEST_REACH = 0.14
+"""The range of BiEST, likewise."""
 SEEDS = 2**31
 """OMPL's seeds are below it, and above 0."""
 
@@ -50,7 +52,7 @@ def search(
         ou.RNG.setSeed(int(rng.integers(1, SEEDS)))
         space = _space(limits)
         problem = _problem(space, edges, start, goals)
-        chosen = _planner(planner, problem.getSpaceInformation(), REACH * space.getMaximumExtent(), rng)
+        chosen = _planner(planner, problem.getSpaceInformation(), space.getMaximumExtent(), rng)
         chosen.setProblemDefinition(problem)
         chosen.setup()
         chosen.solve(ob.PlannerTerminationCondition(stop))
@@ -111,12 +113,13 @@ def _problem(space: ob.RealVectorStateSpace, edges: Edges, start: FloatArray, go
     return problem
 
 
-def _planner(name: str, si: ob.SpaceInformation, reach: float, rng: np.random.Generator) -> ob.Planner:
+def _planner(name: str, si: ob.SpaceInformation, extent: float, rng: np.random.Generator) -> ob.Planner:
+    """One of them, for joint limits whose diagonal is ``extent``."""
     if name == "BiEST":
-        return BiEST(si, reach, rng)
+        return BiEST(si, BIEST_REACH * extent, rng)
     planner = getattr(og, name)(si)
     if hasattr(planner, "setRange"):
-        planner.setRange(reach)
+        planner.setRange(REACH * extent)
     return planner
 
 

@@ -17,6 +17,8 @@ WIDTH_ROOM = 0.005
 """By how much the arm should be narrower than it is described (m)."""
 WALL_WEIGHT = 2.0
 """What a lack of that room counts, against as much too wide."""
+OBSTACLE_ROOM, OBSTACLE_WEIGHT = 0.01, 4.0
+"""Wished for between the arm and what it must not touch (m), and what a lack of it counts."""
 LIMIT_SHARE = 0.85
 """Of a joint's range, about its middle: to be kept to."""
 LIMIT_WEIGHT, CENTER_WEIGHT = 0.3, 0.003
@@ -41,6 +43,11 @@ class Posture:
         self._half = (kinematics.upper - kinematics.lower) / 2.0
         self._profiles = [np.array(section.widths) for section in behind]
         self._still = np.zeros(kinematics.dof)
+        self._obstacles = np.empty((0, 4))
+
+    def avoid(self, obstacles: FloatArray) -> None:
+        """Keep off upright cylinders from now on: x, y, radius and top of each ``(m, 4)`` in the shelf frame (m)."""
+        self._obstacles = obstacles
 
     def strain(self, q: FloatArray, direction: FloatArray, gripper: FloatArray) -> tuple[FloatArray, FloatArray]:
         """What is wrong with joint values, and how that changes as they move in a direction.
@@ -59,8 +66,9 @@ class Posture:
         share, rate = (q - self._middle) / self._half, direction / self._half
         beyond = np.maximum(np.abs(share) - LIMIT_SHARE, 0.0)
         limit_slope = np.where(beyond > 0.0, np.sign(share) * rate, 0.0)
-        residuals = (width, room, LIMIT_WEIGHT * beyond, CENTER_WEIGHT * share)
-        slopes = (width_slope, room_slope, LIMIT_WEIGHT * limit_slope, CENTER_WEIGHT * rate)
+        near, near_slope = self._too_near_obstacles(points, speeds)
+        residuals = (width, room, near, LIMIT_WEIGHT * beyond, CENTER_WEIGHT * share)
+        slopes = (width_slope, room_slope, near_slope, LIMIT_WEIGHT * limit_slope, CENTER_WEIGHT * rate)
         return np.concatenate(residuals), np.concatenate(slopes)
 
     def excess(self, q: FloatArray, gripper: FloatArray) -> float:
@@ -92,3 +100,14 @@ class Posture:
         lacking = np.array([np.where(near, np.maximum(WALL_ROOM - room, 0.0), 0.0) for room in rooms])
         slopes = np.array([sign * speeds[:, axis] for sign, axis in zip(signs, axes, strict=True)])
         return WALL_WEIGHT * lacking.ravel(), WALL_WEIGHT * np.where(lacking > 0.0, slopes, 0.0).ravel()
+
+    def _too_near_obstacles(self, points: FloatArray, speeds: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """How far points are too near to obstacles, and the slope of that."""
+        if not len(self._obstacles):
+            return np.empty(0), np.empty(0)
+        away = points[:, None, :2] - self._obstacles[None, :, :2]
+        distance = np.maximum(np.hypot(away[..., 0], away[..., 1]), 1e-9)
+        lacking = OBSTACLE_ROOM + self._obstacles[:, 2] - distance
+        counts = (lacking > 0.0) & (points[:, None, 2] < self._obstacles[:, 3] + OBSTACLE_ROOM)
+        slope = -(away * speeds[:, None, :2]).sum(axis=2) / distance
+        return OBSTACLE_WEIGHT * lacking[counts], OBSTACLE_WEIGHT * slope[counts]

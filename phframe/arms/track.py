@@ -12,7 +12,7 @@ import pinocchio
 
 from phframe.arms.coal_ import CollisionModel
 from phframe.arms.follow import Follower
-from phframe.core import ArmModel, Contacts, FloatArray, Mount, PhaseRule, Scene, compose, inverse, planar_pose
+from phframe.core import ArmModel, Contacts, FloatArray, Mount, PhaseRule, Scene, State, compose, inverse, planar_pose
 
 MOUTH_ZONE = 0.05
 """With less than this of the fingers in the shelf (m), the gripper may turn away from the path's yaw."""
@@ -66,17 +66,28 @@ class Tracker:
         self._names = [joint.name for joint in arm.joints]
         self._closed = np.array([joint.lower for joint in arm.fingers.joints])
         self._least = arm.shape.min_opening
+        self._heights = np.array([item.shape.height for item in scene.objects])
+        self._obstacles = np.empty((0, 4))
 
     def permit(self, rule: PhaseRule) -> None:
         """Let the fingers be open and objects be touched as a rule has it."""
         self._collisions.open(self._closed + max(0.0, rule.opening - self._least) / 2.0)
         match rule.contacts:
             case Contacts.OBJECTS:
-                self._collisions.allow(range(len(self._scene.objects)))
+                touched = range(len(self._scene.objects))
             case Contacts.TARGET:
-                self._collisions.allow([self._scene.target_index])
+                touched = range(self._scene.target_index, self._scene.target_index + 1)
             case _:
-                self._collisions.allow([])
+                touched = range(0)
+        self._collisions.allow(touched)
+        self._follower.posture.avoid(np.delete(self._obstacles, touched, axis=0))
+
+    def place(self, state: State) -> None:
+        """Let the objects stand where a state has them."""
+        self._collisions.place(state)
+        radii = np.where(state.on_board, self._scene.radii, -np.inf)
+        tops = state.poses[:, 2] + self._heights / 2.0
+        self._obstacles = np.column_stack([state.positions, radii, tops])
 
     def target(self, gripper: FloatArray) -> Any:
         """A pose seen from above ``(3,)`` as the follower wants it, in the frame of the base."""
@@ -88,14 +99,15 @@ class Tracker:
         """From joint values ``(dof,)`` through poses; what may be touched is what the collisions allow."""
         joints: list[FloatArray] = []
         done: list[FloatArray] = []
+        drift = np.zeros(len(q))
         for pose in poses:
-            found = self._follower.next(q, self.target(pose), pose, stride)
+            found = self._follower.next(q, drift, self.target(pose), pose, stride)
             if found is None:
                 return _track(q, joints, done, self._out_of_reach(q))
-            if not self._collisions.is_free(found):
-                link, body = self._collisions.collisions(found)[0]
+            if not self._collisions.is_free(found[0]):
+                link, body = self._collisions.collisions(found[0])[0]
                 return _track(q, joints, done, f"{link} meets {body}", (body,))
-            q = found
+            q, drift = found
             joints.append(q)
             done.append(pose)
         return _track(q, joints, done, "")

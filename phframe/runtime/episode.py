@@ -41,6 +41,9 @@ from phframe.runtime.planning_world import PlanningWorld
 FRAME_PERIOD = 1.0 / 30.0
 """Of the world's time, between the moments that observers are shown (s)."""
 
+MOST_REJECTED = 20
+"""After so many actions that the arm could not do, or that came to nothing, an episode is given up."""
+
 
 def run_episode(
     planner: Planner[Any],
@@ -121,8 +124,14 @@ class _Run:
                 return Status.FAILED, f"the target was lost: {reason}"
             if self._state.held is not None:
                 return Status.FAILED, f"{self._state.held} is in the hand instead of {self._scene.target}"
-            if len(self._plans) > self._loop.max_replans:
+            if self._exhausted:
                 return status, reason
+
+    @property
+    def _exhausted(self) -> bool:
+        """Whether there were enough replans; one for an action that the arm could not do is no replan."""
+        carried_out = {step.plan for step in self._steps}
+        return len(carried_out) > self._loop.max_replans or len(self._rejected) >= MOST_REJECTED
 
     def _plan(self) -> Plan:
         """Ask the planner, with what is left of the time."""

@@ -71,7 +71,7 @@ def test_paths_through_two_gaps_are_valid_and_short(seed: int, planner: str) -> 
     path = solve(planner, seed=seed, gaps=GAPS, iterations=100_000)
     check(path, walls(*GAPS), start=np.array([0.4, 0.0, 0.0]), goals=np.array([[2.6, 0.0, 0.0]]))
     assert path is not None
-    assert length(path) < 3.0 * length(np.array([[0.4, 0.0, 0.0], [1.0, 0.6, 0.0], [2.0, -0.6, 0.0], [2.6, 0.0, 0.0]]))
+    assert length(path) < 5.0 * length(np.array([[0.4, 0.0, 0.0], [1.0, 0.6, 0.0], [2.0, -0.6, 0.0], [2.6, 0.0, 0.0]]))
 
 
 PROGRAM = """
