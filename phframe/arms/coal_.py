@@ -54,7 +54,7 @@ class CollisionModel:
             np.array([self._model.idx_qs[self._model.getJointId(name)] for name in names])
             for names in (joints, fingers)
         )
-        self._scene, self._base = scene, _placement(mount)
+        self._scene, self._base = scene, placement(mount)
         self._links = [_link_of(self._model, item) for item in self._geometry.geometryObjects]
         self._shelf, self._objects = self._add_surroundings()
         self._pair_up({frozenset(pair) for pair in overlapping})
@@ -161,7 +161,8 @@ class CollisionModel:
                 self._checks.collisionRequests[index].security_margin = WALL_MARGIN
 
 
-def _placement(mount: Mount) -> Any:
+def placement(mount: Mount) -> Any:
+    """Where a robot's base stands in the shelf frame."""
     x, y, z, scalar, i, j, k = mount.pose.tolist()
     return pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
 

@@ -45,8 +45,14 @@ class Skin:
             axes, at, turning, velocity = places[row]
             off = own @ axes.T
             points.append(off + at)
-            speeds.append(velocity + np.cross(turning, off))
+            speeds.append(off @ _crossing(turning) + velocity)
         return np.vstack(points) @ self._axes.T + self._at, np.vstack(speeds) @ self._axes.T
+
+
+def _crossing(turning: FloatArray) -> FloatArray:
+    """The matrix ``(3, 3)`` by which row vectors are multiplied for their cross product with a turning, which comes first."""
+    x, y, z = turning.tolist()
+    return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
 
 
 def _links_inside(robot: Robot, joints: Sequence[str], tip: str, depth: float) -> list[tuple[int, str]]:

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pinocchio
 
-from phframe.arms.coal_ import CollisionModel
+from phframe.arms.coal_ import CollisionModel, placement
 from phframe.arms.follow import Follower
-from phframe.core import ArmModel, Contacts, FloatArray, Mount, PhaseRule, Scene, State, compose, inverse, planar_pose
+from phframe.core import ArmModel, Contacts, FloatArray, Mount, PhaseRule, Scene, State
 
 MOUTH_ZONE = 0.05
 """With less than this of the fingers in the shelf (m), the gripper may turn away from the path's yaw."""
@@ -62,7 +62,7 @@ class Tracker:
         self, follower: Follower, collisions: CollisionModel, mount: Mount, arm: ArmModel[Any], scene: Scene
     ) -> None:
         self._follower, self._collisions, self._scene = follower, collisions, scene
-        self._base, self._height = inverse(mount.pose), arm.shape.height
+        self._base, self._height = placement(mount).inverse(), arm.shape.height
         self._names = [joint.name for joint in arm.joints]
         self._closed = np.array([joint.lower for joint in arm.fingers.joints])
         self._least = arm.shape.min_opening
@@ -92,8 +92,9 @@ class Tracker:
     def target(self, gripper: FloatArray) -> Any:
         """A pose seen from above ``(3,)`` as the follower wants it, in the frame of the base."""
         x, y, yaw = gripper.tolist()
-        px, py, pz, scalar, i, j, k = compose(self._base, planar_pose(x, y, self._height, yaw)).tolist()
-        return pinocchio.XYZQUATToSE3(np.array([px, py, pz, i, j, k, scalar]))
+        c, s = math.cos(yaw), math.sin(yaw)
+        level = pinocchio.SE3(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), np.array([x, y, self._height]))
+        return self._base.act(level)
 
     def follow(self, q: FloatArray, poses: Iterable[FloatArray], stride: int) -> Track:
         """From joint values ``(dof,)`` through poses; what may be touched is what the collisions allow."""
