@@ -75,7 +75,10 @@ class Kinematics:
     def descend(self, pose: FloatArray, start: FloatArray) -> FloatArray | None:
         """Joint values ``(dof,)`` for a pose ``(7,)``, going downhill from ``start`` alone, or None."""
         x, y, z, scalar, i, j, k = pose
-        target = pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
+        return self.descend_to(pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar])), start)
+
+    def descend_to(self, target: pinocchio.SE3, start: FloatArray) -> FloatArray | None:
+        """The same for a pose as Pinocchio has it."""
         q = np.clip(start, self.lower, self.upper)
         least, since = np.inf, 0
         for _ in range(STEPS):

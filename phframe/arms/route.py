@@ -55,6 +55,10 @@ class Router:
         self.gate, self._last = (int(deep[0]), int(deep[-1])) if len(deep) else (deepest, deepest)
         self.deepest = deepest
 
+    def pose(self, row: int) -> FloatArray:
+        """A pose of the path ``(3,)``: x, y, yaw."""
+        return self._line.poses[row]
+
     def through(self, q: FloatArray, anchor: int, yaw: float, stride: int) -> Route | Unreachable:
         """The route that has given joint values at one of its poses.
 
