@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -58,7 +58,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
 
     options_type = ArticulatedOptions
 
-    def __init__(self, scene: Scene, arm: ArticulatedArm, mount: Mount, options: ArticulatedOptions) -> None:
+    def __init__(self, scene: Scene, arm: ArticulatedArm[Any], mount: Mount, options: ArticulatedOptions) -> None:
         super().__init__(scene, arm, mount, options)
         require_planner(options.motion_planner)
         self._described, self._kinematics = arm.description, arm.kinematics

@@ -151,7 +151,8 @@ class CollisionModel:
     def _may_meet(self, first: int, second: int) -> bool:
         """Whether two covers move against one another and do not belong to links joined to one another."""
         a, b = (self._geometry.geometryObjects[number].parentJoint for number in (first, second))
-        return a != b and self._model.parents[a] != b and self._model.parents[b] != a
+        parents = self._model.parents
+        return bool(a != b and parents[a] != b and parents[b] != a)
 
     def _set_margins(self) -> None:
         for index, pair in enumerate(self._geometry.collisionPairs):

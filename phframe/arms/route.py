@@ -57,7 +57,7 @@ class Router:
 
     def pose(self, row: int) -> FloatArray:
         """A pose of the path ``(3,)``: x, y, yaw."""
-        return self._line.poses[row]
+        return np.asarray(self._line.poses[row])
 
     def through(self, q: FloatArray, anchor: int, yaw: float, stride: int) -> Route | Unreachable:
         """The route that has given joint values at one of its poses.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import toppra
@@ -16,8 +17,8 @@ SPACING = 0.02
 """Between samples (s)."""
 LEAST = 1e-4
 """Steps shorter than this (s) at full speed count as no step."""
-GRID = 3
-"""Points of the solver's grid for every step of the path, where that has few."""
+LEAST_GRID = 40
+"""Points of the solver's grid."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,21 +52,22 @@ def timed(path: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Ti
     if kept.sum() < 2:
         return Timed(np.array([0.0, SPACING]), np.array([path[0], path[-1]]), np.zeros((2, path.shape[1])))
     share = np.concatenate([[0.0], np.cumsum(steps[kept[1:]])])
-    values, speed = _at_full_speed(share, path[kept], speeds, accelerations)
-    times = np.linspace(0.0, values.duration, max(2, int(np.ceil(values.duration / SPACING)) + 1))
-    return Timed(times, np.asarray(values(times)), np.asarray(speed(times)))
+    trajectory = _quickest(share, path[kept], speeds, accelerations)
+    times = np.linspace(0.0, trajectory.duration, max(2, int(np.ceil(trajectory.duration / SPACING)) + 1))
+    return Timed(times, np.asarray(trajectory(times)), np.asarray(trajectory(times, 1)))
 
 
-def _at_full_speed(share, path, speeds, accelerations):  # type: ignore[no-untyped-def]
-    logging.getLogger("toppra").setLevel(logging.ERROR)
-    spline = toppra.SplineInterpolator(share, path)
+def _quickest(share: FloatArray, path: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Any:
+    """TOPP-RA's trajectory along a spline through a path, whose parameter is the time at full speed."""
+    logging.getLogger("toppra").setLevel(logging.ERROR)  # it warns where it finds no trajectory, as is said below
     limits = [
         toppra.constraint.JointVelocityConstraint(np.column_stack([-speeds, speeds])),
         toppra.constraint.JointAccelerationConstraint(np.column_stack([-accelerations, accelerations])),
     ]
-    grid = share if len(share) > 20 else np.linspace(0.0, share[-1], GRID * 20)
+    grid = share if len(share) >= LEAST_GRID else np.linspace(0.0, share[-1], LEAST_GRID)
+    spline = toppra.SplineInterpolator(share, path)
     solver = toppra.algorithm.TOPPRA(limits, spline, gridpoints=grid, parametrizer="ParametrizeConstAccel")
     found = solver.compute_trajectory(0.0, 0.0)
     if found is None:
         raise ArmError("no times within the joints' limits were found for the path")
-    return found, lambda times: found(times, 1)
+    return found
