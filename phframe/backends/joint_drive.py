@@ -12,8 +12,6 @@ from phframe.backends.joint_touch import Touches
 from phframe.backends.joint_world import JointWorld
 from phframe.core import FORCE_WINDOW, Contact, JointTrajectory, Motion, Settle, Stop, Trajectory, Watch
 
-CONTROL_PERIOD = 0.004
-"""Between commands to the joints, and between looks at what the arm touches (s)."""
 SURVEY = 10
 """Control steps between looks at what has left the board."""
 CALM_CHECK = 5
@@ -41,8 +39,7 @@ class Drive:
     ) -> None:
         self._world = world
         self._trajectory: JointTrajectory = accepted(world, trajectory)
-        self._substeps = max(1, round(CONTROL_PERIOD / world.step))
-        self._period = self._substeps * world.step
+        self._period = world.period
         self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
         self._touches = Touches(world)
         window = max(1, round(FORCE_WINDOW / self._period))
@@ -60,6 +57,7 @@ class Drive:
         Raises:
             SimulationDivergedError: If the engine's numbers are no longer physical.
         """
+        self._world.refuse_divergence()
         self._world.parked = False
         self._look(always=True)
         with self._world.running():
@@ -70,7 +68,7 @@ class Drive:
                 self._yield()
             if settle is not None:
                 self._settle(settle)
-            self._survey()
+            self._world.survey()
         self._look(always=True)
         return self._motion(followed)
 
@@ -98,7 +96,7 @@ class Drive:
 
     def _advance(self) -> None:
         """One control step. The hot path."""
-        tip_x, tip_y, touching, force = self._world.advance(self._substeps)
+        tip_x, tip_y, touching, force = self._world.advance()
         self._tick += 1
         self._tip = tip_x, tip_y
         if touching:
@@ -106,7 +104,7 @@ class Drive:
         if self._pressed or self._world.held is not None:
             self._feel(touching, force)
         if self._tick % SURVEY == 0:
-            self._survey()
+            self._world.survey()
         if self._watch is not None:
             self._look()
 
@@ -118,10 +116,6 @@ class Drive:
         self._force = max(self._force, sum(self._forces) / len(self._forces))
         if self._stop is not None and self._cause is None:
             self._cause = self._reason(self._stop)
-
-    def _survey(self) -> None:
-        self._world.refuse_divergence()
-        self._world.spill()
 
     def _note_lag(self, x: float, y: float) -> None:
         """See how far the fingertip is from where it is meant to be."""

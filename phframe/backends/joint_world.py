@@ -31,6 +31,8 @@ from phframe.core import (
     refuse_foreign,
 )
 
+CONTROL_PERIOD = 0.004
+"""Between commands to the joints, and between looks at what the arm touches (s)."""
 TOP_SPEED = 20.0
 """Anything faster (m/s) is not physics any more."""
 
@@ -47,9 +49,12 @@ class JointWorld(ABC):
         scene: What is in it.
         arm: In it.
         mount: Of the arm.
+        step: The engine's time step (s).
 
     Attributes:
         step: The engine's time step (s).
+        substeps: Steps in a control step.
+        period: Duration of a control step (s).
         delay: How old the fingertip's place is that ``advance`` tells (s).
         spilled: Last pose seen, by row of the object.
         held: Row of the object in the hand.
@@ -58,10 +63,11 @@ class JointWorld(ABC):
 
     engine: ClassVar[str]
     """The backend's name, for messages."""
-    step: float
     delay: float = 0.0
 
-    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount) -> None:
+    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, step: float) -> None:
+        self.step, self.substeps = step, max(1, round(CONTROL_PERIOD / step))
+        self.period = self.substeps * step
         self.scene, self.arm, self.mount = scene, arm, mount
         self.spilled: dict[int, FloatArray] = {}
         self.held: int | None = None
@@ -150,8 +156,8 @@ class JointWorld(ABC):
         """Let the arm's joints give no more than this ``(dof,)`` (N or Nm)."""
 
     @abstractmethod
-    def advance(self, steps: int) -> Progress:
-        """Let so many steps pass."""
+    def advance(self) -> Progress:
+        """Let one control step pass."""
 
     @abstractmethod
     def _place(self, state: State, joints: FloatArray, fingers: FloatArray, told_fingers: FloatArray) -> None:
@@ -219,9 +225,17 @@ class JointWorld(ABC):
             self._stand(row, on_edge=True)
         self.held = row
 
-    def spill(self) -> None:
-        """Take out what has left the board; the pose it was last seen at is kept."""
-        lying = self.lying
+    def survey(self) -> None:
+        """Look at everything: refuse what is no physics any more, take out what has left the board.
+
+        Raises:
+            SimulationDivergedError: If the engine's numbers are no longer physical.
+        """
+        self.refuse_divergence()
+        self.spill(self.lying)
+
+    def spill(self, lying: FloatArray) -> None:
+        """Take out what has left the board, at poses ``(n, 7)``; the pose it was last seen at is kept."""
         for row in np.flatnonzero((lying[:, 0] < 0.0) | (lying[:, 2] < 0.0)).tolist():
             held = row == self.held
             if row not in self.spilled and condition_of(lying[row], held=held) is Condition.SPILLED:
@@ -234,7 +248,9 @@ class JointWorld(ABC):
         Raises:
             SimulationDivergedError: With the object and its speed, or the complaint.
         """
-        speeds = self.speeds
+        self._refuse(self.speeds)
+
+    def _refuse(self, speeds: FloatArray) -> None:
         if not (speeds < TOP_SPEED).all():  # nothing that is not a number is less
             row = int(np.flatnonzero(~(speeds < TOP_SPEED))[0])
             what = f"{self.scene.ids[row]!r} moves at {speeds[row]:.3g} m/s"

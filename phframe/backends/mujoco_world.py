@@ -32,9 +32,9 @@ class World(JointWorld):
     engine = "mujoco"
 
     def __init__(self, model: Model, data: Any) -> None:
-        super().__init__(model.scene, model.arm, model.mount)
+        super().__init__(model.scene, model.arm, model.mount, model.mj.opt.timestep)
         self.model, self.data = model, data
-        self.step = self.delay = model.mj.opt.timestep  # a step leaves poses one step behind the joints
+        self.delay = self.step  # a step leaves poses one step behind the joints
         self._ranges = model.mj.actuator_forcerange[: model.dof]
         self._warnings: list[str] = []
 
@@ -130,9 +130,9 @@ class World(JointWorld):
         """Let the arm's joints give no more than this ``(dof,)`` (N or Nm)."""
         self._ranges[:, 0], self._ranges[:, 1] = -efforts, efforts
 
-    def advance(self, steps: int) -> Progress:
-        """Let so many steps pass. The hot path."""
-        mujoco.mj_step(self.model.mj, self.data, steps)
+    def advance(self) -> Progress:
+        """Let one control step pass. The hot path."""
+        mujoco.mj_step(self.model.mj, self.data, self.substeps)
         x, y, _ = self.data.xpos[self.model.tip].tolist()
         touching, *force = self.data.sensordata.tolist()
         return x, y, touching, math.hypot(*force)

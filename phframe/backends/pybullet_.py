@@ -22,6 +22,7 @@ class PybulletOptions(JointOptions):
     Attributes:
         step: Time step (s).
         iterations: Of the contact solver in a step.
+        sleep: Whether what is at rest is passed over until something touches it; twice as fast.
         object_friction: Coulomb coefficient between objects.
         arm_friction: Coulomb coefficient between the arm and all else.
         turning_friction: Of a contact against turning on the spot (m).
@@ -32,6 +33,7 @@ class PybulletOptions(JointOptions):
 
     step: Annotated[float, Field(gt=0.0, le=0.005)] = 0.002
     iterations: Annotated[int, Field(ge=10, le=1000)] = 50
+    sleep: bool = True
     object_friction: Coefficient = 0.2
     arm_friction: Coefficient = 0.3
     turning_friction: Annotated[float, Field(ge=0.0, le=0.1)] = 0.005
@@ -59,7 +61,7 @@ class PybulletPhysics(JointPhysics[PybulletOptions, World, Snapshot]):
     def _new_world(self) -> World:
         o = self.options
         surfaces = Surfaces(o.object_friction, o.arm_friction, o.turning_friction, o.rolling_friction)
-        engine = Engine(o.step, o.iterations, o.joint_gain, surfaces)
+        engine = Engine(o.step, o.iterations, o.joint_gain, surfaces, o.sleep)
         return World(self.scene, self.arm, self.mount, self.urdf, engine)
 
     def _take(self, world: World) -> Snapshot:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,8 @@ from phframe.backends.pybullet_shelf import ARM, BOX, OBJECT, Surfaces
 from phframe.backends.pybullet_urdf import Coupling, PreparedUrdf
 from phframe.core import ArmModel, FloatArray, IncompatibleError, Mount
 
+SHARES = (0.1, 0.4, 0.8)
+"""Of the joints' ranges: postures in which to see whether an arm's weight moves its joints."""
 STIFFNESS, DAMPING = 5e3, 50.0
 """Of the arm's cover at every point of contact (N/m, Ns/m). A rigid one would make a blow of every touch."""
 COUPLING_FORCE = 1000.0
@@ -35,6 +37,7 @@ class LoadedArm:
         tip: Link of the fingertip frame.
         parts: What a link is called in a contact.
         sides: Which links are fingers, +1 left, -1 right.
+        sags: Whether its own weight moves any joint.
     """
 
     body: int
@@ -44,6 +47,7 @@ class LoadedArm:
     tip: int
     parts: Mapping[int, str]
     sides: Mapping[int, int]
+    sags: bool = True
 
 
 def load_arm(client: int, arm: ArmModel[Any], mount: Mount, urdf: PreparedUrdf, surfaces: Surfaces) -> LoadedArm:
@@ -86,7 +90,8 @@ def load_arm(client: int, arm: ArmModel[Any], mount: Mount, urdf: PreparedUrdf, 
     followers = {joints[coupling.joint] for coupling in urdf.couplings}
     for joint in set(movable) - set(driven) - followers:
         _hold_still(client, body, infos[joint])
-    return loaded
+    postures = ([share * (info[9] - info[8]) + info[8] for info in infos if info[0] in movable] for share in SHARES)
+    return replace(loaded, sags=any(any(weight(client, loaded, posture)) for posture in postures))
 
 
 def place_joints(client: int, loaded: LoadedArm, arm: ArmModel[Any], values: Sequence[float]) -> None:
@@ -111,12 +116,11 @@ def place_joints(client: int, loaded: LoadedArm, arm: ArmModel[Any], values: Seq
 def _load(client: int, arm: ArmModel[Any], mount: Mount, text: str) -> int:
     x, y, z, qw, qx, qy, qz = mount.pose.tolist()
     with tempfile.TemporaryDirectory() as folder, caught_output() as said:
-        path = os.path.join(folder, "arm.urdf")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
+        path = Path(folder) / "arm.urdf"
+        path.write_text(text, encoding="utf-8")
         try:
             body: int = bullet.loadURDF(
-                path,
+                str(path),
                 basePosition=[x, y, z],
                 baseOrientation=[qx, qy, qz, qw],
                 useFixedBase=True,
@@ -163,6 +167,15 @@ def _hold_still(client: int, body: int, info: tuple[Any, ...]) -> None:
     bullet.setJointMotorControl2(
         body, joint, bullet.POSITION_CONTROL, targetPosition=value, force=effort, physicsClientId=client
     )
+
+
+def weight(client: int, arm: LoadedArm, values: Sequence[float]) -> tuple[float, ...]:
+    """What all joints that can move have to give so that the arm does not sag, at their values (N or Nm)."""
+    still = [0.0] * len(values)
+    efforts: tuple[float, ...] = bullet.calculateInverseDynamics(
+        arm.body, list(values), still, still, physicsClientId=client
+    )
+    return efforts
 
 
 def inertias(client: int, arm: LoadedArm, values: Sequence[float]) -> FloatArray:

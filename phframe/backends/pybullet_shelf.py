@@ -6,7 +6,7 @@ box that ends at the mouth, the edge.
 
 Bullet multiplies the coefficients of two bodies that touch. So that every pair has its own, whatever the others
 have, objects have the root of that between objects, all else what makes the product right, and there is a board for
-every coefficient that objects have with it. Turning and rolling are resisted by boards, walls and arm.
+every coefficient that objects have with it. Turning on the spot is resisted by boards, walls and arm.
 """
 
 from __future__ import annotations
@@ -51,11 +51,7 @@ class Surfaces:
     def against_objects(self, coefficient: float) -> dict[str, float]:
         """What a body has in Bullet so that objects have a coefficient with it."""
         own = self.own
-        return {
-            "lateralFriction": coefficient / own,
-            "spinningFriction": self.turning / own,
-            "rollingFriction": self.rolling / own,
-        }
+        return {"lateralFriction": coefficient / own, "spinningFriction": self.turning / own}
 
 
 @dataclass(frozen=True, slots=True)

@@ -57,7 +57,7 @@ def prepared_urdf(arm: ArmModel[Any]) -> PreparedUrdf:
         raise IncompatibleError(f"PyBullet cannot load the URDF of {type(arm).__name__}: {error}") from None
     _refuse_lacking(arm, robot)
     outlined = {outline.part for outline in arm.shape.closed}
-    parts = {}
+    parts: dict[str, str] = {}
     for link in robot.findall("link"):
         for visual in link.findall("visual"):
             link.remove(visual)

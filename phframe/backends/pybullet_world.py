@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from phframe.backends.joint_world import JointWorld, Pair, Progress
-from phframe.backends.pybullet_arm import LoadedArm, inertias, load_arm, place_joints
+from phframe.backends.pybullet_arm import LoadedArm, inertias, load_arm, place_joints, weight
 from phframe.backends.pybullet_quiet import bullet
+from phframe.backends.pybullet_rest import Rest
 from phframe.backends.pybullet_shelf import Bodies, Surfaces, build_shelf, set_edge, stand
 from phframe.backends.pybullet_urdf import PreparedUrdf
 from phframe.core import ArmModel, FloatArray, Mount, Scene, State, coulomb_with_board, yaw_of
@@ -35,12 +36,14 @@ class Engine:
         iterations: Of the contact solver in a step.
         gain: Speed of a joint per error (1/s).
         surfaces: Friction.
+        sleep: Whether what is at rest is passed over until something touches it.
     """
 
     step: float
     iterations: int
     gain: float
     surfaces: Surfaces
+    sleep: bool
 
 
 class World(JointWorld):
@@ -57,11 +60,11 @@ class World(JointWorld):
     engine = "pybullet"
     _bodies: Bodies
     _loaded: LoadedArm
+    _rest: Rest
 
     def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, urdf: PreparedUrdf, engine: Engine) -> None:
-        super().__init__(scene, arm, mount)
+        super().__init__(scene, arm, mount, engine.step)
         self._settings, self._urdf = engine, urdf
-        self.step = engine.step
         self.client: int = bullet.connect(bullet.DIRECT)
         self._dof = len(arm.joints)
         self._finger_efforts = [joint.effort for joint in arm.fingers.joints]
@@ -69,7 +72,7 @@ class World(JointWorld):
         self._efforts: list[float] = []
         self._gains = [min(engine.gain * engine.step, 1.0)] * (self._dof + 2)
         self._ones = [1.0] * (self._dof + 2)
-        self._told: list[float] = []
+        self._way: list[list[float]] = []
         self._speeds: list[float] = []
         self._damped: list[float] | None = None
         self._points: list[Any] = []
@@ -93,7 +96,7 @@ class World(JointWorld):
     @property
     def told_fingers(self) -> FloatArray:
         """What the two finger joints are told to be ``(2,)``."""
-        return np.array(self._told[self._dof :])
+        return np.array(self._way[-1][self._dof :])
 
     @property
     def gripper(self) -> FloatArray:
@@ -157,35 +160,20 @@ class World(JointWorld):
                 yield rows[body], sides[link], -np.array(point[7])
 
     def controls(self, positions: FloatArray, velocities: FloatArray, fingers: FloatArray) -> list[Any]:
-        """Joint values and speeds, each with those of the fingers ``(dof + 2,)``, of ``k`` control steps."""
-        values = np.hstack([positions, fingers]).tolist()
-        speeds = np.hstack([velocities, np.zeros_like(fingers)]).tolist()
-        return list(zip(values, speeds, strict=True))
+        """Where arm and fingers are to be after each step ``(dof + 2,)``, and how fast, of ``k`` control steps."""
+        speeds = np.hstack([velocities, np.zeros_like(fingers)])
+        ahead = self.step * np.arange(self.substeps - 1, -1, -1)[:, None]
+        ways = np.hstack([positions, fingers])[:, None] - ahead * speeds[:, None]
+        return list(zip(ways.tolist(), speeds.tolist(), strict=True))
 
     def tell(self, control: Any) -> None:
-        """Tell the motors where to be after the next steps, and how fast."""
-        (self._told, self._speeds), self._damped = control, None
-
-    def _command(self, ahead: float) -> None:
-        """Command the motors; they are to be where they were told in so many seconds."""
-        told, speeds = self._told, self._speeds
-        if ahead:
-            told = [value - speed * ahead for value, speed in zip(told, speeds, strict=True)]
-        bullet.setJointMotorControlArray(
-            self._loaded.body,
-            self._loaded.joints,
-            bullet.POSITION_CONTROL,
-            targetPositions=told,
-            targetVelocities=speeds,
-            forces=self._damped or self._efforts,
-            positionGains=self._gains,
-            velocityGains=self._ones,
-            physicsClientId=self.client,
-        )
+        """Tell the motors where to be and how fast, in the next steps."""
+        (self._way, self._speeds), self._damped = control, None
 
     def hold_joints(self, positions: FloatArray) -> None:
         """Tell the arm to stand still at joint values ``(dof,)``."""
-        self.tell(([*positions.tolist(), *self._told[self._dof :]], [0.0] * (self._dof + 2)))
+        told = [*positions.tolist(), *self._way[-1][self._dof :]]
+        self.tell(([told] * self.substeps, [0.0] * len(told)))
 
     def give_way(self) -> None:
         """Let the motors, which are rigid, give no more than it takes to slow the arm down."""
@@ -199,11 +187,22 @@ class World(JointWorld):
         """Let the arm's joints give no more than this ``(dof,)`` (N or Nm), from the next command on."""
         self._efforts = [*efforts.tolist(), *self._finger_efforts]
 
-    def advance(self, steps: int) -> Progress:
-        """Let so many steps pass. The hot path."""
-        arm, client, weight = self._loaded, self.client, self._weight()
-        for left in range(steps - 1, -1, -1):
-            self._command(left * self.step)
+    def advance(self) -> Progress:
+        """Let one control step pass. The hot path."""
+        arm, client = self._loaded, self.client
+        forces, weight = self._damped or self._efforts, self._weight() if arm.sags else None
+        for place in self._way:
+            bullet.setJointMotorControlArray(
+                arm.body,
+                arm.joints,
+                bullet.POSITION_CONTROL,
+                targetPositions=place,
+                targetVelocities=self._speeds,
+                forces=forces,
+                positionGains=self._gains,
+                velocityGains=self._ones,
+                physicsClientId=client,
+            )
             if weight is not None:  # forgotten after every step
                 bullet.setJointMotorControlArray(
                     arm.body, arm.movable, bullet.TORQUE_CONTROL, forces=weight, physicsClientId=client
@@ -227,6 +226,13 @@ class World(JointWorld):
         for joint, value, speed in zip(self._loaded.joints, self._values(), joint_speeds.tolist(), strict=True):
             bullet.resetJointState(self._loaded.body, joint, value, speed, physicsClientId=self.client)
 
+    def survey(self) -> None:
+        """Look at everything, and let what is at rest sleep."""
+        lying, speeds = self.lying, self.speeds
+        self._refuse(speeds)
+        self.spill(lying)
+        self._rest.look(lying, speeds)
+
     def _net_force(self) -> float:
         """On the arm, of all its contacts (N)."""
         x = y = z = 0.0
@@ -236,12 +242,8 @@ class World(JointWorld):
         return math.sqrt(x * x + y * y + z * z)
 
     def _weight(self) -> Any:
-        """What the joints have to give, besides what their motors do, so that the arm does not sag; None: nothing."""
-        arm = self._loaded
-        values = [state[0] for state in self._states(arm.movable)]
-        still = [0.0] * len(values)
-        efforts = bullet.calculateInverseDynamics(arm.body, values, still, still, physicsClientId=self.client)
-        return efforts if any(efforts) else None
+        """What the joints have to give, besides what their motors do, so that the arm does not sag."""
+        return weight(self.client, self._loaded, [state[0] for state in self._states(self._loaded.movable)])
 
     def _place(self, state: State, joints: FloatArray, fingers: FloatArray, told_fingers: FloatArray) -> None:
         """Build the whole world anew."""
@@ -253,13 +255,14 @@ class World(JointWorld):
             physicsClientId=self.client,
         )
         self._bodies = build_shelf(self.client, self.scene, state, self._settings.surfaces)
+        self._rest = Rest(self.client, self.scene, self._bodies, self._settings.surfaces, sleep=self._settings.sleep)
+        self._rest.let_roll(state.poses)
         self._loaded = load_arm(self.client, self.arm, self.mount, self._urdf, self._settings.surfaces)
         place_joints(self.client, self._loaded, self.arm, [*joints.tolist(), *fingers.tolist()])
-        self._told = [*joints.tolist(), *told_fingers.tolist()]
-        self._speeds = [0.0] * len(self._told)
-        self._points = []
+        self._way = [[*joints.tolist(), *told_fingers.tolist()]]
         self.cap(self._most)
-        self._damped = None
+        self.hold_joints(joints)
+        self._points = []
 
     def _remove(self, row: int) -> None:
         bullet.removeBody(self._bodies.objects.pop(row), physicsClientId=self.client)
