@@ -67,7 +67,9 @@ def prepared_urdf(arm: ArmModel[Any]) -> PreparedUrdf:
 
 def _refuse_lacking(arm: ArmModel[Any], robot: ET.Element) -> None:
     joints, links = ({element.get("name") for element in robot.findall(kind)} for kind in ("joint", "link"))
-    lacking = [joint.name for joint in (*arm.joints, *arm.fingers.joints) if joint.name not in joints]
+    wanted = [joint.name for joint in (*arm.joints, *arm.fingers.joints)]
+    wanted += [mimic.get("joint", "") for mimic in robot.iter("mimic")]
+    lacking = [name for name in wanted if name not in joints]
     lacking += [name for name in (arm.tip_link, *arm.fingers.links) if name not in links]
     if lacking:
         raise IncompatibleError(f"the URDF of {type(arm).__name__} has no joint or link {', '.join(lacking)}")

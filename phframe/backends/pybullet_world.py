@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from phframe.backends.joint_world import JointWorld, Pair, Progress
-from phframe.backends.pybullet_arm import LoadedArm, inertias, load_arm, place_joints, weight
+from phframe.backends.pybullet_arm import LoadedArm, load_arm
+from phframe.backends.pybullet_joints import inertias, place_joints, sags, weight
 from phframe.backends.pybullet_quiet import bullet
 from phframe.backends.pybullet_rest import Rest
 from phframe.backends.pybullet_shelf import Bodies, Surfaces, build_shelf, set_edge, stand
@@ -61,6 +62,7 @@ class World(JointWorld):
     _bodies: Bodies
     _loaded: LoadedArm
     _rest: Rest
+    _sags: bool
 
     def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, urdf: PreparedUrdf, engine: Engine) -> None:
         super().__init__(scene, arm, mount, engine.step)
@@ -190,7 +192,7 @@ class World(JointWorld):
     def advance(self) -> Progress:
         """Let one control step pass. The hot path."""
         arm, client = self._loaded, self.client
-        forces, weight = self._damped or self._efforts, self._weight() if arm.sags else None
+        forces, weight = self._damped or self._efforts, self._weight() if self._sags else None
         for place in self._way:
             bullet.setJointMotorControlArray(
                 arm.body,
@@ -258,6 +260,7 @@ class World(JointWorld):
         self._rest = Rest(self.client, self.scene, self._bodies, self._settings.surfaces, sleep=self._settings.sleep)
         self._rest.let_roll(state.poses)
         self._loaded = load_arm(self.client, self.arm, self.mount, self._urdf, self._settings.surfaces)
+        self._sags = sags(self.client, self._loaded)
         place_joints(self.client, self._loaded, self.arm, [*joints.tolist(), *fingers.tolist()])
         self._way = [[*joints.tolist(), *told_fingers.tolist()]]
         self.cap(self._most)
