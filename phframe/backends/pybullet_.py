@@ -8,7 +8,7 @@ from typing import Annotated
 from pydantic import Field
 
 from phframe.backends.joint_physics import JointOptions, JointPhysics, StallLag
-from phframe.backends.pybullet_shelf import Surfaces
+from phframe.backends.pybullet_bodies import Surfaces
 from phframe.backends.pybullet_snapshot import Snapshot, put_back, take_snapshot
 from phframe.backends.pybullet_urdf import PreparedUrdf, prepared_urdf
 from phframe.backends.pybullet_world import Engine, World

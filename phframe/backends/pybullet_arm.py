@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from phframe.backends.pybullet_bodies import ARM, BOX, OBJECT, Surfaces
 from phframe.backends.pybullet_quiet import bullet, caught_output
-from phframe.backends.pybullet_shelf import ARM, BOX, OBJECT, Surfaces
 from phframe.backends.pybullet_urdf import Coupling, PreparedUrdf
 from phframe.core import ArmModel, IncompatibleError, Mount
 

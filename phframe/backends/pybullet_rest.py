@@ -10,8 +10,9 @@ import math
 
 import numpy as np
 
+from phframe.backends.pybullet_bodies import Surfaces
 from phframe.backends.pybullet_quiet import bullet
-from phframe.backends.pybullet_shelf import Bodies, Surfaces
+from phframe.backends.pybullet_shelf import Bodies
 from phframe.core import FloatArray, Scene, coulomb_with_board
 from phframe.core.condition import TOPPLED_TILT
 

@@ -3,55 +3,20 @@
 Board and walls are boxes for the arm and planes for the objects: on planes, cylinders stand perfectly still and are
 quicker by far to simulate. What is held outside must not find a plane under it: while an object is held, it meets a
 box that ends at the mouth, the edge.
-
-Bullet multiplies the coefficients of two bodies that touch. So that every pair has its own, whatever the others
-have, objects have the root of that between objects, all else what makes the product right, and there is a board for
-every coefficient that objects have with it. Turning on the spot is resisted by boards, walls and arm.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from phframe.backends.pybullet_bodies import ARM, BOARDS, BOX, OBJECT, OBJECT_MEETS, PLANE, Maker, Surfaces
 from phframe.backends.pybullet_quiet import bullet
-from phframe.core import FloatArray, Scene, Shelf, State, coulomb_with_board
+from phframe.backends.shelf_boxes import BOARD, WALLS, Corner, board_box, wall_boxes
+from phframe.core import Scene, Shelf, State, coulomb_with_board
 
-THICKNESS = 0.1
-"""Of board, walls and ceiling (m)."""
-LEAST = 1e-3
-"""An object's own coefficient where there is no friction between objects: not 0, by which nothing can be multiplied."""
-ARM, OBJECT, PLANE, BOX, BOARD = 1, 2, 4, 8, 16
-"""Collision bits of the arm, of objects, of what objects meet at walls, of what the arm meets, of boards."""
-Corner = tuple[float, float, float]
-
-
-@dataclass(frozen=True, slots=True)
-class Surfaces:
-    """Friction between bodies.
-
-    Attributes:
-        objects: Coulomb coefficient of object against object.
-        arm: Of the arm against all else.
-        turning: Against turning on the spot (m).
-        rolling: Against rolling (m).
-    """
-
-    objects: float
-    arm: float
-    turning: float
-    rolling: float
-
-    @property
-    def own(self) -> float:
-        """The coefficient that objects themselves have in Bullet."""
-        return max(math.sqrt(self.objects), LEAST)
-
-    def against_objects(self, coefficient: float) -> dict[str, float]:
-        """What a body has in Bullet so that objects have a coefficient with it."""
-        own = self.own
-        return {"lateralFriction": coefficient / own, "spinningFriction": self.turning / own}
+LEVEL: tuple[Corner, Corner] = ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+"""Point and normal of the board's surface."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,26 +42,22 @@ class Bodies:
 
 def build_shelf(client: int, scene: Scene, state: State, surfaces: Surfaces) -> Bodies:
     """Make the shelf and the objects that have not spilled."""
-    maker = _Maker(client, surfaces)
-    board, *walls = (maker.box(lower, upper, BOX, ARM) for _, lower, upper in _solids(scene.shelf))
-    edge = maker.box(*_board(scene.shelf), BOARD, 0)
-    for point, normal in _planes(scene.shelf):
-        maker.plane(point, normal, scene.shelf.wall_friction, PLANE, OBJECT)
+    maker = Maker(client, surfaces)
+    boxes = _boxes(maker, scene.shelf)
+    edge = maker.box(board_box(scene.shelf), BOARDS, 0)
+    _add_planes(maker, scene.shelf)
     frictions = [coulomb_with_board(scene, item) for item in scene.objects]
-    boards = {
-        friction: maker.plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), friction, BOARD, 0)
-        for friction in dict.fromkeys(frictions)
-    }
-    objects = {row: maker.cylinder(scene, row, state.poses[row]) for row in state.on_board.nonzero()[0].tolist()}
+    boards = {friction: maker.plane(*LEVEL, friction, BOARDS, 0) for friction in dict.fromkeys(frictions)}
+    there = state.on_board.nonzero()[0].tolist()
+    objects = {row: maker.cylinder(scene.objects[row], state.poses[row]) for row in there}
     for row, body in objects.items():
         stand(client, body, boards[frictions[row]], stands=True)
-    names = dict(zip((board, *walls), (name for name, *_ in _solids(scene.shelf)), strict=True))
     return Bodies(
         objects,
         tuple(boards[friction] for friction in frictions),
         edge,
-        names | {body: scene.ids[row] for row, body in objects.items()},
-        frozenset(walls),
+        boxes | {body: scene.ids[row] for row, body in objects.items()},
+        frozenset(body for body, name in boxes.items() if name in WALLS),
         {body: row for row, body in objects.items()},
     )
 
@@ -105,7 +66,7 @@ def stand(client: int, body: int, board: int, *, stands: bool) -> None:
     """Let an object meet a board, or not."""
     bullet.setCollisionFilterPair(body, board, -1, -1, int(stands), physicsClientId=client)
     # Bullet looks at who may meet whom only when their boxes begin to overlap, or here:
-    bullet.setCollisionFilterGroupMask(body, -1, OBJECT, ARM | OBJECT | PLANE, physicsClientId=client)
+    bullet.setCollisionFilterGroupMask(body, -1, OBJECT, OBJECT_MEETS, physicsClientId=client)
 
 
 def set_edge(client: int, edge: int, friction: float, surfaces: Surfaces) -> None:
@@ -113,74 +74,16 @@ def set_edge(client: int, edge: int, friction: float, surfaces: Surfaces) -> Non
     bullet.changeDynamics(edge, -1, **surfaces.against_objects(friction), physicsClientId=client)
 
 
-class _Maker:
-    """Makes bodies in a client."""
-
-    def __init__(self, client: int, surfaces: Surfaces) -> None:
-        self._client, self._surfaces = client, surfaces
-        # Bodies without one are given a mesh to look at, which takes longer than all the rest.
-        self._look = bullet.createVisualShape(bullet.GEOM_BOX, halfExtents=[0.01] * 3, physicsClientId=client)
-
-    def box(self, lower: Corner, upper: Corner, bits: int, meets: int) -> int:
-        """What the arm meets, or something held."""
-        half = [(b - a) / 2.0 for a, b in zip(lower, upper, strict=True)]
-        middle = [(a + b) / 2.0 for a, b in zip(lower, upper, strict=True)]
-        shape = bullet.createCollisionShape(bullet.GEOM_BOX, halfExtents=half, physicsClientId=self._client)
-        body = self._body(0.0, shape, middle, bits, meets)
-        self._set(body, lateralFriction=self._surfaces.own)  # with the arm, as objects have it
-        return body
-
-    def plane(self, point: Corner, normal: Corner, friction: float, bits: int, meets: int) -> int:
-        """What objects stand on or meet at a wall."""
-        shape = bullet.createCollisionShape(bullet.GEOM_PLANE, planeNormal=normal, physicsClientId=self._client)
-        body = self._body(0.0, shape, point, bits, meets)
-        self._set(body, **self._surfaces.against_objects(friction))
-        return body
-
-    def cylinder(self, scene: Scene, row: int, pose: FloatArray) -> int:
-        """An object, at rest."""
-        item = scene.objects[row]
-        radius, height = item.shape.radius, item.shape.height
-        shape = bullet.createCollisionShape(
-            bullet.GEOM_CYLINDER, radius=radius, height=height, physicsClientId=self._client
-        )
-        place, (w, *xyz) = pose[:3].tolist(), pose[3:].tolist()
-        body = self._body(item.mass, shape, place, OBJECT, ARM | OBJECT | PLANE, [*xyz, w])
-        self._set(
-            body,
-            lateralFriction=self._surfaces.own,
-            spinningFriction=0.0,
-            rollingFriction=0.0,
-            linearDamping=0.0,
-            angularDamping=0.0,
-        )
-        return body
-
-    def _body(
-        self, mass: float, shape: int, place: Corner | list[float], bits: int, meets: int, turned: object = (0, 0, 0, 1)
-    ) -> int:
-        body: int = bullet.createMultiBody(
-            mass, shape, self._look, basePosition=place, baseOrientation=turned, physicsClientId=self._client
-        )
-        bullet.setCollisionFilterGroupMask(body, -1, bits, meets, physicsClientId=self._client)
-        return body
-
-    def _set(self, body: int, **dynamics: float) -> None:
-        bullet.changeDynamics(body, -1, **dynamics, physicsClientId=self._client)
+def _boxes(maker: Maker, shelf: Shelf) -> dict[int, str]:
+    """What the arm meets, and what it is called."""
+    corners = {BOARD: board_box(shelf)} | {name: (lower, upper) for name, lower, upper in wall_boxes(shelf)}
+    return {maker.box(box, BOX, ARM): name for name, box in corners.items()}
 
 
-def _board(shelf: Shelf) -> tuple[Corner, Corner]:
-    return (0.0, -THICKNESS, -THICKNESS), (shelf.depth + THICKNESS, shelf.width + THICKNESS, 0.0)
-
-
-def _solids(shelf: Shelf) -> Iterator[tuple[str, Corner, Corner]]:
-    """Name, least and greatest corner (m) of board, walls and ceiling."""
-    depth, width, height, t = shelf.depth, shelf.width, shelf.height, THICKNESS
-    yield "board", *_board(shelf)
-    yield "south wall", (0.0, -t, 0.0), (depth, 0.0, height)
-    yield "north wall", (0.0, width, 0.0), (depth, width + t, height)
-    yield "back wall", (depth, -t, 0.0), (depth + t, width + t, height)
-    yield "ceiling", (0.0, -t, height), (depth + t, width + t, height + t)
+def _add_planes(maker: Maker, shelf: Shelf) -> None:
+    """Walls and ceiling as objects meet them."""
+    for point, normal in _planes(shelf):
+        maker.soften(maker.plane(point, normal, shelf.wall_friction, PLANE, OBJECT))
 
 
 def _planes(shelf: Shelf) -> Iterator[tuple[Corner, Corner]]:

@@ -11,10 +11,11 @@ import numpy as np
 
 from phframe.backends.joint_world import JointWorld, Pair, Progress
 from phframe.backends.pybullet_arm import LoadedArm, load_arm
+from phframe.backends.pybullet_bodies import Surfaces
 from phframe.backends.pybullet_joints import inertias, place_joints, sags, weight
 from phframe.backends.pybullet_quiet import bullet
 from phframe.backends.pybullet_rest import Rest
-from phframe.backends.pybullet_shelf import Bodies, Surfaces, build_shelf, set_edge, stand
+from phframe.backends.pybullet_shelf import Bodies, build_shelf, set_edge, stand
 from phframe.backends.pybullet_urdf import PreparedUrdf
 from phframe.core import ArmModel, FloatArray, Mount, Scene, State, coulomb_with_board, yaw_of
 
@@ -77,6 +78,7 @@ class World(JointWorld):
         self._way: list[list[float]] = []
         self._speeds: list[float] = []
         self._damped: list[float] | None = None
+        self._giving = 0
         self._points: list[Any] = []
 
     def close(self) -> None:
@@ -170,7 +172,7 @@ class World(JointWorld):
 
     def tell(self, control: Any) -> None:
         """Tell the motors where to be and how fast, in the next steps."""
-        (self._way, self._speeds), self._damped = control, None
+        (self._way, self._speeds), self._damped, self._giving = control, None, 0
 
     def hold_joints(self, positions: FloatArray) -> None:
         """Tell the arm to stand still at joint values ``(dof,)``."""
@@ -180,9 +182,11 @@ class World(JointWorld):
     def give_way(self) -> None:
         """Let the motors, which are rigid, give no more than it takes to slow the arm down."""
         states = self._states(self._loaded.joints[: self._dof])
+        fading = self._giving + 1  # the longer it gives way, the less is left to slow down
         slowing = self.inertias * np.abs([state[1] for state in states]) / SLOWING
         self.hold_joints(np.array([state[0] for state in states]))
-        given = np.minimum(slowing + YIELD * self._most, self._efforts[: self._dof])
+        given = np.minimum((slowing + YIELD * self._most) / fading, self._efforts[: self._dof])
+        self._giving = fading
         self._damped = [*given.tolist(), *self._finger_efforts]
 
     def cap(self, efforts: FloatArray) -> None:
