@@ -47,7 +47,8 @@ def _flush() -> None:
     for stream in (sys.stdout, sys.stderr):
         if stream is not None and not stream.closed:
             stream.flush()
-    ctypes.CDLL(None).fflush(None)
+    if os.name == "posix":  # elsewhere there is no library that stands for the process itself
+        ctypes.CDLL(None).fflush(None)
 
 
 with caught_output():

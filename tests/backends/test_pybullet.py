@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.core import ArmState, Cylinder, FloatArray, Phase, SceneObject, Shelf, State
+from phframe.core import ArmState, Cylinder, FloatArray, Phase, SceneObject, Shelf, State, compose, yaw_of
 from phframe.testing.physics.paths import MIDDLE, SHELF, crowd, cylinder, drive_in, path, scene_of
 from phframe.testing.physics.stand import on_stand
 from tests.backends.engines import ARM, TARGET, let_be, physics, set_moving, slide, subject
@@ -246,3 +246,41 @@ def test_json_on_standard_output_is_json_alone(tmp_path: Path) -> None:
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True, timeout=120)
     assert json.loads(done.stdout)["status"] == "retrieved"
     assert "pybullet build time" not in done.stderr
+
+
+@pytest.fixture
+def baxter() -> Any:
+    pytest.importorskip("pinocchio")
+    from phframe.arms.baxter import Baxter
+
+    return Baxter(Baxter.options_type())
+
+
+@pytest.mark.needs_baxter
+def test_baxter_stands_still_and_has_its_fingertip_where_forward_says(baxter: Any) -> None:
+    world = world_of(cylinder("o", 0.3, MIDDLE), TARGET, arm=baxter)
+    for _ in range(500):
+        world.advance()
+    assert np.abs(world.joints - baxter.home).max() < 1e-6
+    tip = compose(world.mount.pose, baxter.forward(world.joints))
+    assert np.allclose(world.gripper, [tip[0], tip[1], yaw_of(tip)], atol=1e-5)
+
+
+@pytest.mark.needs_baxter
+def test_joints_carry_their_weight_besides_what_motors_give(baxter: Any) -> None:
+    """With hardly any effort the arm stands still; where nothing carries its weight, it falls."""
+    fallen = []
+    for carried in (True, False):
+        world = world_of(cylinder("o", 0.3, MIDDLE), TARGET, arm=baxter)
+        assert world._sags
+        world._sags = carried
+        world.cap(np.full(7, 0.05))
+        for _ in range(100):
+            world.advance()
+        fallen.append(float(np.abs(world.joints - baxter.home).max()))
+    assert fallen[0] < 1e-3
+    assert fallen[1] > 0.1
+
+
+def test_an_arm_that_moves_level_has_no_weight_to_carry() -> None:
+    assert not world_of(cylinder("o", 0.3, MIDDLE), TARGET)._sags
