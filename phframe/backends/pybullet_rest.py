@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from phframe.backends.pybullet_bodies import Surfaces
 from phframe.backends.pybullet_quiet import bullet
 from phframe.backends.pybullet_shelf import Bodies
@@ -20,6 +18,9 @@ CALM = 1e-3
 """What is slower than this (m/s) ..."""
 LONG = 3
 """... at so many looks one after the other is at rest."""
+
+LEANING = (1.0 - math.cos(TOPPLED_TILT)) / 2.0
+"""What has toppled has more than this in the squares of its quaternion's x and y."""
 
 
 class Rest:
@@ -36,7 +37,7 @@ class Rest:
     def __init__(self, client: int, scene: Scene, bodies: Bodies, surfaces: Surfaces, *, sleep: bool) -> None:
         self._client, self._scene, self._bodies, self._surfaces = client, scene, bodies, surfaces
         self._sleep = sleep
-        self._calm = np.zeros(len(scene.objects), dtype=np.int64)
+        self._calm = [0] * len(scene.objects)
         self._rolls: set[int] = set()
         for body in bodies.objects.values() if sleep else ():
             self._set(body, activationState=bullet.ACTIVATION_STATE_ENABLE_SLEEPING, sleepThreshold=CALM**2)
@@ -44,15 +45,16 @@ class Rest:
     def look(self, poses: FloatArray, speeds: FloatArray) -> None:
         """Let what is at rest sleep and what has toppled roll, at poses ``(n, 7)`` and speeds ``(n,)`` (m/s)."""
         self.let_roll(poses)
-        self._calm = np.where(speeds < CALM, self._calm + 1, 0)
-        if self._sleep:
-            for row in np.flatnonzero((self._calm > 0) & (self._calm % LONG == 0)).tolist():
-                if row in self._bodies.objects:
-                    self._set(self._bodies.objects[row], activationState=bullet.ACTIVATION_STATE_SLEEP)
+        if not self._sleep:
+            return
+        for row, speed in enumerate(speeds.tolist()):
+            self._calm[row] = calm = self._calm[row] + 1 if speed < CALM else 0
+            if calm and calm % LONG == 0 and row in self._bodies.objects:
+                self._set(self._bodies.objects[row], activationState=bullet.ACTIVATION_STATE_SLEEP)
 
     def let_roll(self, poses: FloatArray) -> None:
         """Let what has toppled meet resistance to rolling; what stands has none, which is quicker by a third."""
-        leaning = 1.0 - 2.0 * (poses[:, 4] ** 2 + poses[:, 5] ** 2) < math.cos(TOPPLED_TILT)
+        leaning = poses[:, 4] ** 2 + poses[:, 5] ** 2 > LEANING
         for row in leaning.nonzero()[0].tolist():
             body = self._bodies.objects.get(row)
             if body is not None and row not in self._rolls:

@@ -71,6 +71,7 @@ class World(JointWorld):
         self.client: int = bullet.connect(bullet.DIRECT)
         self._dof = len(arm.joints)
         self._finger_efforts = [joint.effort for joint in arm.fingers.joints]
+        self._radii: list[float] = scene.radii.tolist()
         self._most = np.array([joint.effort for joint in arm.joints])
         self._efforts: list[float] = []
         self._gains = [min(engine.gain * engine.step, 1.0)] * (self._dof + 2)
@@ -130,6 +131,15 @@ class World(JointWorld):
         return velocities
 
     @property
+    def speeds(self) -> FloatArray:
+        """As of every world; read often enough to be worth a loop of its own."""
+        speeds = [0.0] * len(self._radii)
+        for row, body in self._bodies.objects.items():
+            straight, turning = bullet.getBaseVelocity(body, physicsClientId=self.client)
+            speeds[row] = math.hypot(*straight) + math.hypot(*turning) * self._radii[row]
+        return np.array(speeds)
+
+    @property
     def inertias(self) -> FloatArray:
         """What each of the arm's joints has to accelerate ``(dof,)``, where it is."""
         values = [state[0] for state in self._states(self._loaded.movable)]
@@ -143,8 +153,8 @@ class World(JointWorld):
     @property
     def trouble(self) -> str | None:
         """That the arm is nowhere."""
-        numbers = np.array([state[:2] for state in self._states(self._loaded.movable)])
-        return None if np.isfinite(numbers).all() else "the arm is nowhere; try a smaller backend step"
+        numbers = sum(state[0] + state[1] for state in self._states(self._loaded.movable))
+        return None if math.isfinite(numbers) else "the arm is nowhere; try a smaller backend step"
 
     def touching(self) -> Iterator[Pair]:
         """The arm's contacts with anything else: a link and a body."""
