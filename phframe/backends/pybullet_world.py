@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import weakref
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -57,6 +58,10 @@ class World(JointWorld):
         mount: Of the arm.
         urdf: Of the arm.
         engine: How the engine is set.
+
+    Attributes:
+        client: PyBullet's.
+        close: Gives the client back; done by itself when the world is forgotten.
     """
 
     engine = "pybullet"
@@ -69,6 +74,8 @@ class World(JointWorld):
         super().__init__(scene, arm, mount, engine.step)
         self._settings, self._urdf = engine, urdf
         self.client: int = bullet.connect(bullet.DIRECT)
+        # PyBullet has room for some thousand clients; those of worlds that nobody closes must not fill it.
+        self.close = weakref.finalize(self, bullet.disconnect, physicsClientId=self.client)
         self._dof = len(arm.joints)
         self._finger_efforts = [joint.effort for joint in arm.fingers.joints]
         self._radii: list[float] = scene.radii.tolist()
@@ -81,12 +88,6 @@ class World(JointWorld):
         self._damped: list[float] | None = None
         self._giving = 0
         self._points: list[Any] = []
-
-    def close(self) -> None:
-        """Give the client back."""
-        if self.client >= 0:
-            bullet.disconnect(physicsClientId=self.client)
-            self.client = -1
 
     @property
     def joints(self) -> FloatArray:

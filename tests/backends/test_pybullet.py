@@ -284,3 +284,12 @@ def test_joints_carry_their_weight_besides_what_motors_give(baxter: Any) -> None
 
 def test_an_arm_that_moves_level_has_no_weight_to_carry() -> None:
     assert not world_of(cylinder("o", 0.3, MIDDLE), TARGET)._sags
+
+
+def test_worlds_that_nobody_closes_give_their_clients_back() -> None:
+    clients = set()
+    for _ in range(5):
+        world = world_of(cylinder("o", 0.3, MIDDLE), TARGET)
+        clients.add(world.client)
+        del world
+    assert len(clients) < 5
