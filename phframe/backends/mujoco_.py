@@ -16,29 +16,16 @@ from typing import Annotated, Literal
 import mujoco
 from pydantic import Field
 
-from phframe.backends.mujoco_drive import Drive
+from phframe.backends.joint_physics import JointOptions, JointPhysics, StallLag
 from phframe.backends.mujoco_model import Controls, Model, build_model
 from phframe.backends.mujoco_shelf import Surfaces
-from phframe.backends.mujoco_snapshot import Snapshot, held_twist, put_back, take_snapshot
-from phframe.backends.mujoco_world import World, read_state, restore
-from phframe.core import (
-    ArmError,
-    FloatArray,
-    JointTrajectory,
-    Motion,
-    Options,
-    Physics,
-    Settle,
-    State,
-    Stop,
-    Trajectory,
-    Watch,
-)
+from phframe.backends.mujoco_snapshot import Snapshot, put_back, take_snapshot
+from phframe.backends.mujoco_world import World
 
 Coefficient = Annotated[float, Field(ge=0.0, le=2.0)]
 
 
-class MujocoOptions(Options):
+class MujocoOptions(JointOptions):
     """Options of the MuJoCo backend.
 
     Attributes:
@@ -65,25 +52,16 @@ class MujocoOptions(Options):
     rolling_friction: Annotated[float, Field(ge=0.0, le=0.1)] = 0.0005
     joint_give: Annotated[float, Field(gt=0.0, le=0.2)] = 0.01
     finger_give: Annotated[float, Field(gt=0.0, le=0.05)] = 0.002
-    stall_lag: Annotated[float, Field(gt=0.0, le=0.2)] = 0.015
+    stall_lag: StallLag = 0.015
 
 
-class MujocoPhysics(Physics[MujocoOptions]):
+class MujocoPhysics(JointPhysics[MujocoOptions, World, Snapshot]):
     """MuJoCo 4 behind the Physics interface.
 
     ``restore`` resets the engine's data completely, warm starts and sleep included, so ``simulate`` repeats bit by bit.
     """
 
     options_type = MujocoOptions
-    executes = JointTrajectory
-    _world: World | None = None
-
-    def restore(self, state: State) -> State:
-        """Put everything where ``state`` has it, at rest."""
-        world = self._world or World(self.model, mujoco.MjData(self.model.mj))
-        restore(world, state)
-        self._world = world
-        return read_state(world)
 
     @cached_property
     def model(self) -> Model:
@@ -93,59 +71,16 @@ class MujocoPhysics(Physics[MujocoOptions]):
         controls = Controls(o.joint_give, o.finger_give, o.arm_friction)
         return build_model(self.scene, self.arm, self.mount, surfaces, controls, step=o.step, sleep=o.sleep)
 
-    def execute(
-        self, trajectory: Trajectory, *, settle: Settle | None, stop: Stop | None = None, watch: Watch | None = None
-    ) -> Motion:
-        """Drive the joints along a trajectory.
-
-        Raises:
-            InputError: If it is not a ``JointTrajectory``, begins elsewhere or is beyond the joints' limits.
-            SimulationDivergedError: If the engine's numbers are no longer physical.
-        """
-        drive = Drive(self._current, trajectory, stall_lag=self.options.stall_lag, stop=stop, watch=watch)
-        return drive.run(settle)
-
-    def observe(self) -> State:
-        """The world as it is now."""
-        return read_state(self._current)
-
-    def snapshot(self) -> Snapshot:
-        """The world as it is now, moving or not."""
-        return take_snapshot(self._current)
-
-    def state_of(self, snapshot: Snapshot) -> State:
-        """What a snapshot holds, its speeds aside."""
-        return snapshot.state
-
-    def propagate(
-        self,
-        snapshot: Snapshot,
-        twist: FloatArray,
-        dt: float,
-        *,
-        opening: float | None = None,
-        stop: Stop | None = None,
-    ) -> tuple[Snapshot, Motion]:
-        """Hold a fingertip twist for ``dt`` seconds, without settling; see ``SupportsPropagation``.
-
-        Raises:
-            ArmError: If the arm is parked, or cannot follow.
-        """
-        if snapshot.state.arm is None:
-            raise ArmError("a parked arm cannot be propagated: give a state in which it stands somewhere")
-        world = self._current
-        put_back(world, snapshot)
-        motion = self.execute(held_twist(world, snapshot, twist, dt, opening), settle=None, stop=stop)
-        return take_snapshot(world), motion
-
     def close(self) -> None:
         """Drop the engine's data and model."""
-        self._world = None
+        super().close()
         self.__dict__.pop("model", None)
 
-    @property
-    def _current(self) -> World:
-        if self._world is None:
-            self.restore(self.scene.initial_state())
-        assert self._world is not None
-        return self._world
+    def _new_world(self) -> World:
+        return World(self.model, mujoco.MjData(self.model.mj))
+
+    def _take(self, world: World) -> Snapshot:
+        return take_snapshot(world)
+
+    def _put_back(self, world: World, snapshot: Snapshot) -> None:
+        put_back(world, snapshot)

@@ -65,13 +65,14 @@ def arm_spec(arm: ArmModel[Any], *, give: float, finger_give: float, friction: S
 
 
 def _load(arm: ArmModel[Any]) -> Any:
-    robot = ET.fromstring(arm.urdf())
-    # MuJoCo would merge links that are fixed to one another, and lose the fingertip.
-    ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", fusestatic="false", discardvisual="true")
     try:
+        robot = ET.fromstring(arm.urdf())
+        # MuJoCo would merge links that are fixed to one another, and lose the fingertip.
+        ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", fusestatic="false", discardvisual="true")
         return mujoco.MjSpec.from_string(ET.tostring(robot, encoding="unicode"))
-    except ValueError as error:
-        raise IncompatibleError(f"MuJoCo cannot load the URDF of {type(arm).__name__}: {error}") from None
+    except (ET.ParseError, ValueError) as error:
+        why = " ".join(str(error).split())
+        raise IncompatibleError(f"MuJoCo cannot load the URDF of {type(arm).__name__}: {why}") from None
 
 
 def _check_names(arm: ArmModel[Any], spec: Any) -> None:

@@ -9,7 +9,8 @@ import mujoco
 import numpy as np
 
 from phframe.backends.mujoco_arm import PREFIX, arm_spec, lead
-from phframe.backends.mujoco_shelf import WALLS, Surfaces, foot_name, object_name, shelf_spec
+from phframe.backends.mujoco_shelf import Surfaces, foot_name, object_name, shelf_spec
+from phframe.backends.shelf_boxes import WALLS
 from phframe.core import ArmModel, FloatArray, IntArray, Mount, Scene
 
 FORCE_SENSOR = "force on the arm"

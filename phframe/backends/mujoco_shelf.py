@@ -12,26 +12,21 @@ former push along a face of the box instead of from the edge to the axis, by whi
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import mujoco
 
+from phframe.backends.shelf_boxes import BOARD, Corner, board_box, wall_boxes
 from phframe.core import Scene, SceneObject, Shelf, coulomb_with_board
 
-THICKNESS = 0.1
-"""Of board, walls and ceiling (m)."""
 ARM_KIND, ARM_MEETS = 1, 2
 """Collision bits of the arm: it meets what has bit 2, and never itself."""
 WALL, PLANE, BOX = 4, 8, 16
 """Collision bits of the planes that are walls, of the plane that is the board, of the box that is the board."""
 OBJECT_KIND, OBJECT_MEETS = ARM_MEETS, ARM_KIND | ARM_MEETS | WALL
 """Collision bits of objects: they meet the arm, one another and walls; their feet meet one of the boards."""
-WALLS = ("south wall", "north wall", "back wall", "ceiling")
-BOARD = "board"
 Turn = tuple[float, float, float, float]
-Corner = tuple[float, float, float]
 CONTACT = (0.02, 1.0)
 """Time constant (s) and damping ratio of contacts: stiff, and damped so that what is hit hardly rebounds."""
 
@@ -94,12 +89,11 @@ def _set_options(option: Any, surfaces: Surfaces, step: float, sleep: bool) -> N
 
 def _add_boards(spec: Any, shelf: Shelf, friction: list[float]) -> None:
     _add_plane(spec, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), PLANE, friction)
-    corner = (shelf.depth + THICKNESS, shelf.width + THICKNESS, 0.0)
-    _add_box(spec, BOARD, (0.0, -THICKNESS, -THICKNESS), corner, BOX, friction)
+    _add_box(spec, BOARD, *board_box(shelf), BOX, friction)
 
 
 def _add_walls(spec: Any, shelf: Shelf, friction: list[float]) -> None:
-    for name, lower, upper in _walls(shelf):
+    for name, lower, upper in wall_boxes(shelf):
         _add_box(spec, name, lower, upper, 0, friction)
     depth, width, height = shelf.depth, shelf.width, shelf.height
     for point, turned in (
@@ -109,15 +103,6 @@ def _add_walls(spec: Any, shelf: Shelf, friction: list[float]) -> None:
         ((0.0, 0.0, height), (0.0, 1.0, 0.0, 0.0)),
     ):
         _add_plane(spec, point, turned, WALL, friction)
-
-
-def _walls(shelf: Shelf) -> Iterator[tuple[str, Corner, Corner]]:
-    """Name, least and greatest corner (m) of walls and ceiling."""
-    depth, width, height, t = shelf.depth, shelf.width, shelf.height, THICKNESS
-    yield "south wall", (0.0, -t, 0.0), (depth, 0.0, height)
-    yield "north wall", (0.0, width, 0.0), (depth, width + t, height)
-    yield "back wall", (depth, -t, 0.0), (depth + t, width + t, height)
-    yield "ceiling", (0.0, -t, height), (depth + t, width + t, height + t)
 
 
 def _add_plane(spec: Any, point: Corner, turned: Turn, meets: int, friction: list[float]) -> None:

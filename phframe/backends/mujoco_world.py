@@ -1,56 +1,42 @@
-"""A MuJoCo world: the engine's data, and what the engine does not know, such as what has spilled and what is held."""
+"""A MuJoCo world: the engine's data behind the abilities that every world of joints has."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import ArrayLike
 
+from phframe.backends.joint_world import TOP_SPEED, JointWorld, Pair, Progress
 from phframe.backends.mujoco_model import Model
 from phframe.backends.mujoco_shelf import BOX, PLANE
-from phframe.core import (
-    ArmState,
-    Condition,
-    FloatArray,
-    InputError,
-    SimulationDivergedError,
-    State,
-    compose,
-    condition_of,
-    inverse,
-    planar_pose,
-    refuse_foreign,
-    yaw_of,
-)
+from phframe.backends.mujoco_warnings import caught_warnings
+from phframe.core import FloatArray, State, planar_pose, yaw_of
 
-TOP_SPEED = 20.0
-"""Anything faster (m/s) is not physics any more."""
 AWAY = 10.0
 """What has spilled is put this far before the mouth (m), where it meets nothing."""
 GRAVITY = 9.81
 
 
-@dataclass(slots=True)
-class World:
+class World(JointWorld):
     """A world at some moment.
 
-    Attributes:
+    Args:
         model: What it is an instance of.
         data: MuJoCo's.
-        spilled: Last pose seen, by row of the object.
-        held: Row of the object in the hand.
-        parked: The arm stands at home and has not been used yet.
     """
 
-    model: Model
-    data: Any
-    spilled: dict[int, FloatArray] = field(default_factory=dict)
-    held: int | None = None
-    parked: bool = True
+    engine = "mujoco"
+
+    def __init__(self, model: Model, data: Any) -> None:
+        super().__init__(model.scene, model.arm, model.mount, model.mj.opt.timestep)
+        self.model, self.data = model, data
+        self.delay = self.step  # a step leaves poses one step behind the joints
+        self._ranges = model.mj.actuator_forcerange[: model.dof]
+        self._warnings: list[str] = []
 
     @property
     def joints(self) -> FloatArray:
@@ -58,15 +44,14 @@ class World:
         return np.asarray(self.data.qpos[self.model.joints])
 
     @property
-    def opening(self) -> float:
-        """Distance between the fingers (m)."""
-        return self.model.arm.shape.min_opening + float((self.data.qpos[self.model.fingers] - self.model.closed).sum())
+    def fingers(self) -> FloatArray:
+        """What the two finger joints are ``(2,)``."""
+        return np.asarray(self.data.qpos[self.model.fingers])
 
     @property
-    def command(self) -> float:
-        """The distance between the fingers that they are told to have (m)."""
-        told = self.data.ctrl[self.model.dof :] - self.model.closed
-        return self.model.arm.shape.min_opening + float(told.sum())
+    def told_fingers(self) -> FloatArray:
+        """What the two finger joints are told to be ``(2,)``."""
+        return np.asarray(self.data.ctrl[self.model.dof :])
 
     @property
     def gripper(self) -> FloatArray:
@@ -76,121 +61,110 @@ class World:
         return np.array([pose[0], pose[1], yaw_of(pose)])
 
     @property
-    def speeds(self) -> FloatArray:
-        """Speed of every object ``(n,)``, that of its rim included (m/s); 0 of what has spilled."""
-        velocity = self.data.qvel[self.model.moving]
-        turning = np.linalg.norm(velocity[:, 3:], axis=1) * self.model.scene.radii
-        speeds = np.linalg.norm(velocity[:, :3], axis=1) + turning
-        speeds[list(self.spilled)] = 0.0
-        return np.asarray(speeds)
+    def lying(self) -> FloatArray:
+        """Pose of every object ``(n, 7)``."""
+        return np.asarray(self.data.qpos[self.model.lying])
 
+    @property
+    def velocities(self) -> FloatArray:
+        """Velocity of every object ``(n, 6)``, straight (m/s) and turning (rad/s)."""
+        return np.asarray(self.data.qvel[self.model.moving])
 
-def finger_values(model: Model, openings: ArrayLike) -> FloatArray:
-    """What the two finger joints are ``(..., 2)`` at openings ``(...)`` (m)."""
-    travel = (np.asarray(openings) - model.arm.shape.min_opening) / 2.0
-    return np.asarray(model.closed + travel[..., None])
+    @property
+    def inertias(self) -> FloatArray:
+        """What each of the arm's joints has to accelerate ``(dof,)``, in the posture in which all joints are 0."""
+        return np.asarray(self.model.mj.dof_M0[self.model.speeds])
 
+    @property
+    def given(self) -> FloatArray:
+        """Magnitude of the force or torque that each of the arm's joints gave in the last step ``(dof,)``."""
+        return np.asarray(np.abs(self.data.actuator_force[: self.model.dof]))
 
-def restore(world: World, state: State) -> None:
-    """Make the world be a state, at rest.
+    @property
+    def trouble(self) -> str | None:
+        """What MuJoCo has warned of, or that the arm is nowhere."""
+        if self._warnings:
+            return self._warnings[0].strip()
+        if not (np.isfinite(self.data.qpos).all() and np.isfinite(self.data.qvel).all()):
+            return "the arm is nowhere; try a smaller backend step"
+        return None
 
-    Raises:
-        InputError: If the state is not one of this scene and this arm.
-    """
-    refuse_foreign(world.model.scene, world.model.arm.shape, state)
-    joints = _joints_of(world.model, state.arm)
-    model, data = world.model, world.data
-    mujoco.mj_resetData(model.mj, data)
-    data.qpos[model.lying] = state.poses
-    world.spilled = {}
-    for row in np.flatnonzero(~state.on_board):
-        _take_out(world, int(row), state.poses[row])
-    shape = model.arm.shape
-    opening, command = (
-        (shape.min_opening, shape.min_opening)
-        if state.arm is None
-        else (state.arm.opening, state.arm.commanded_opening)
-    )
-    data.qpos[model.joints] = data.ctrl[: model.dof] = joints
-    data.qpos[model.fingers], data.ctrl[model.dof :] = finger_values(model, opening), finger_values(model, command)
-    model.mj.geom_conaffinity[model.feet] = PLANE
-    world.held = None
-    hold(world, None if state.held is None else model.scene.index(state.held))
-    world.parked = state.arm is None
+    def touching(self) -> Iterator[Pair]:
+        """The arm's contacts with anything else, as geoms."""
+        arm = self.model.is_arm
+        for one, other in self.data.contact.geom.tolist():
+            if arm[one] is not arm[other]:
+                yield (one, other) if arm[one] else (other, one)
 
+    def names(self, pair: Pair) -> tuple[str, str, bool]:
+        """The part of the arm, what it touches, whether that is a wall."""
+        part, thing = pair
+        return self.model.names[part], self.model.names[thing], self.model.is_wall[thing]
 
-def hold(world: World, row: int | None) -> None:
-    """Note what is held; what is held stands on a board that ends at the mouth, all else on a plane."""
-    model, mj = world.model, world.model.mj
-    for known, bits in ((world.held, PLANE), (row, BOX)):
-        if known is not None:
-            mj.geom_conaffinity[model.feet[known]] = bits
-    world.held = row
+    def pushes(self) -> Iterator[tuple[int, int, FloatArray]]:
+        """Of every contact of a finger with an object: the object's row, the finger, its direction."""
+        contact, sides, rows = self.data.contact, self.model.sides, self.model.rows
+        for index, (one, other) in enumerate(contact.geom.tolist()):
+            for finger, thing, sign in ((one, other, 1.0), (other, one, -1.0)):
+                row = rows[thing]
+                if sides[finger] and row is not None:
+                    yield row, sides[finger], sign * contact.frame[index, :3]
 
+    def controls(self, positions: FloatArray, velocities: FloatArray, fingers: FloatArray) -> list[Any]:
+        """Joint values, leading where joints move, then the two fingers ``(dof + 2,)``, of ``k`` control steps."""
+        return list(np.hstack([positions + self.model.lead * velocities, fingers]))
 
-def _joints_of(model: Model, arm: ArmState | None) -> FloatArray:
-    if arm is None:
-        return np.asarray(model.arm.home)
-    if arm.joints is not None:
-        if arm.joints.shape != (model.dof,):
-            raise InputError(f"a state's arm has {len(arm.joints)} joints, this one {model.dof}")
-        return arm.joints
-    x, y, yaw = (float(value) for value in arm.gripper)
-    wanted = planar_pose(x, y, model.arm.shape.height, yaw)
-    found = model.arm.inverse(compose(inverse(model.mount.pose), wanted))
-    if found is None:
-        raise InputError(f"the arm cannot have its fingertip at x {x:.3f} m, y {y:.3f} m, yaw {yaw:.2f} rad")
-    return found
+    def tell(self, control: Any) -> None:
+        """Tell the servos where to be."""
+        self.data.ctrl[:] = control
 
+    def hold_joints(self, positions: FloatArray) -> None:
+        """Tell the arm to stand still at joint values ``(dof,)``."""
+        self.data.ctrl[: self.model.dof] = positions
 
-def _take_out(world: World, row: int, pose: FloatArray) -> None:
-    """Put what has spilled far away, where it hangs still, and keep the pose it was last seen at."""
-    model, data = world.model, world.data
-    world.spilled[row] = np.array(pose)
-    data.qpos[model.lying[row]] = planar_pose(-AWAY - row, 0.0)
-    data.qvel[model.moving[row]] = 0.0
-    data.xfrc_applied[model.bodies[row], 2] = GRAVITY * model.scene.objects[row].mass
+    def give_way(self) -> None:
+        """Ask nothing of the arm but to be where it is; its servos are springs with dampers."""
+        self.hold_joints(self.joints)
 
+    def cap(self, efforts: FloatArray) -> None:
+        """Let the arm's joints give no more than this ``(dof,)`` (N or Nm)."""
+        self._ranges[:, 0], self._ranges[:, 1] = -efforts, efforts
 
-def spill(world: World) -> None:
-    """Take out what has left the board."""
-    lying = world.data.qpos[world.model.lying]
-    suspects = np.flatnonzero((lying[:, 0] < 0.0) | (lying[:, 2] < 0.0))
-    for row in suspects:
-        held = row == world.held
-        if row not in world.spilled and condition_of(lying[row], held=held) is Condition.SPILLED:
-            _take_out(world, int(row), lying[row])
+    def advance(self) -> Progress:
+        """Let one control step pass. The hot path."""
+        mujoco.mj_step(self.model.mj, self.data, self.substeps)
+        x, y, _ = self.data.xpos[self.model.tip].tolist()
+        touching, *force = self.data.sensordata.tolist()
+        return x, y, touching, math.hypot(*force)
 
+    @contextmanager
+    def running(self) -> Iterator[None]:
+        """Collect what MuJoCo warns of."""
+        with caught_warnings() as self._warnings:
+            yield
+        self._warnings = []
 
-def refuse_divergence(world: World, warnings: Sequence[str]) -> None:
-    """Raise where a body is nowhere or faster than physics allows, or MuJoCo has warned.
+    def refuse_divergence(self) -> None:
+        """Raise where numbers are not physical; look at them one by one only where some may not be."""
+        if not np.abs(self.data.qvel).max() < TOP_SPEED or self._warnings:  # nothing that is not a number is less
+            super().refuse_divergence()
 
-    Raises:
-        SimulationDivergedError: With the object and its speed, or the warning.
-    """
-    data = world.data
-    if np.abs(data.qvel).max() < TOP_SPEED and not warnings:  # nothing that is not a number is less
-        return
-    speeds = world.speeds
-    if not (speeds < TOP_SPEED).all():
-        row = int(np.flatnonzero(~(speeds < TOP_SPEED))[0])
-        what = f"{world.model.scene.ids[row]!r} moves at {speeds[row]:.3g} m/s"
-        raise SimulationDivergedError(f"the simulation diverged: {what}; try a smaller backend step")
-    if warnings:
-        raise SimulationDivergedError(f"the simulation diverged: {warnings[0].strip()}")
-    if not (np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all()):
-        raise SimulationDivergedError("the simulation diverged: the arm is nowhere; try a smaller backend step")
+    def _place(self, state: State, joints: FloatArray, fingers: FloatArray, told_fingers: FloatArray) -> None:
+        model, data = self.model, self.data
+        mujoco.mj_resetData(model.mj, data)
+        data.qpos[model.lying] = state.poses
+        for row in self.spilled:
+            self._remove(row)
+        data.qpos[model.joints] = data.ctrl[: model.dof] = joints
+        data.qpos[model.fingers], data.ctrl[model.dof :] = fingers, told_fingers
+        model.mj.geom_conaffinity[model.feet] = PLANE
 
+    def _remove(self, row: int) -> None:
+        """Put it far away, where it hangs still."""
+        model, data = self.model, self.data
+        data.qpos[model.lying[row]] = planar_pose(-AWAY - row, 0.0)
+        data.qvel[model.moving[row]] = 0.0
+        data.xfrc_applied[model.bodies[row], 2] = GRAVITY * model.scene.objects[row].mass
 
-def read_state(world: World) -> State:
-    """The world as it is now."""
-    scene, poses = world.model.scene, np.array(world.data.qpos[world.model.lying])
-    conditions = [condition_of(pose, held=row == world.held) for row, pose in enumerate(poses)]
-    for row, pose in world.spilled.items():
-        poses[row], conditions[row] = pose, Condition.SPILLED
-    held = None if world.held is None else scene.ids[world.held]
-    return State(poses, tuple(conditions), held, None if world.parked else _arm_state(world))
-
-
-def _arm_state(world: World) -> ArmState:
-    return ArmState(world.gripper, world.opening, world.command, world.joints)
+    def _stand(self, row: int, *, on_edge: bool) -> None:
+        self.model.mj.geom_conaffinity[self.model.feet[row]] = BOX if on_edge else PLANE

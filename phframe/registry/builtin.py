@@ -28,6 +28,13 @@ EXTENSIONS = [
         "The shelf in 3D with MuJoCo: objects tip, roll and fall, the arm is moved by its joints",
         extra="mujoco",
     ),
+    Extension(
+        Kind.BACKEND,
+        "pybullet",
+        "phframe.backends.pybullet_:PybulletPhysics",
+        "The shelf in 3D with PyBullet: a second opinion on MuJoCo's",
+        extra="pybullet",
+    ),
     Extension(Kind.ARM, "planar", "phframe.arms.planar:PlanarArm", "A gripper on a straight link; slides and turns"),
     Extension(
         Kind.ARM,

@@ -1,15 +1,15 @@
-"""From a joint trajectory to what the servos are told at every control step; what is beyond an arm is refused."""
+"""From a joint trajectory to what the joints are told at every control step; what is beyond an arm is refused."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from phframe.backends.mujoco_model import Model
-from phframe.backends.mujoco_world import World, finger_values
-from phframe.core import FloatArray, InputError, JointTrajectory, Phase, Trajectory, compose, yaw_of
+from phframe.backends.joint_world import JointWorld
+from phframe.core import ArmModel, FloatArray, InputError, JointTrajectory, Phase, Trajectory, compose, yaw_of
 
 START_POSITION, START_ANGLE = 2e-3, 1e-2
 """How far from the arm (m, rad) a trajectory may begin."""
@@ -19,51 +19,53 @@ SPEED_SLACK = 1.02
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Commands:
-    """What the servos are told, one row for each control step.
+    """What the joints are told, one row for each control step.
 
     Attributes:
-        controls: Joint values, leading where joints move, then the two fingers ``(k, dof + 2)``.
+        controls: For arm and fingers, as the engine takes them, ``k``.
         phases: What the arm is doing during each control step, ``k``.
         tips: Where the fingertip is meant to be as each control step ends, x and y ``(k, 2)`` (m).
     """
 
-    controls: FloatArray
+    controls: list[Any]
     phases: tuple[Phase, ...]
     tips: FloatArray
 
 
-def commands(model: Model, trajectory: JointTrajectory, period: float) -> Commands:
+def commands(world: JointWorld, trajectory: JointTrajectory, period: float) -> Commands:
     """Sample a trajectory once in every control period (s)."""
     times = np.arange(1, math.ceil(trajectory.duration / period - 1e-9) + 1) * period
     positions, velocities = trajectory.sample(times)
     gripper = trajectory.gripper
     openings = np.interp(times, gripper.times, gripper.openings)
-    fingers = finger_values(model, openings)
-    seen = times - model.mj.opt.timestep  # a step leaves poses one step behind the joints
+    seen = times - world.delay
     tips = [np.interp(seen, gripper.times, gripper.poses[:, axis]) for axis in (0, 1)]
     legs = np.searchsorted(gripper.times, times - period / 2.0, side="right") - 1
     phases = tuple(gripper.phases[min(leg, len(gripper.phases) - 1)] for leg in legs.tolist())
-    return Commands(np.hstack([positions + model.lead * velocities, fingers]), phases, np.column_stack(tips))
+    return Commands(world.controls(positions, velocities, world.finger_values(openings)), phases, np.column_stack(tips))
 
 
-def accepted(world: World, trajectory: Trajectory) -> JointTrajectory:
+def accepted(world: JointWorld, trajectory: Trajectory) -> JointTrajectory:
     """The trajectory, if the arm can follow it from where it is.
 
     Raises:
         InputError: If it is not one of joints, of another arm, begins elsewhere, or is beyond a joint's limits.
     """
     if not isinstance(trajectory, JointTrajectory):
-        raise InputError("the mujoco backend drives joints: it needs a JointTrajectory, as a motion planner makes them")
-    if trajectory.positions.shape[1] != world.model.dof:
-        raise InputError(f"a trajectory of {trajectory.positions.shape[1]} joints is not one of {world.model.dof}")
+        raise InputError(
+            f"the {world.engine} backend drives joints: it needs a JointTrajectory, as a motion planner makes them"
+        )
+    dof = len(world.arm.joints)
+    if trajectory.positions.shape[1] != dof:
+        raise InputError(f"a trajectory of {trajectory.positions.shape[1]} joints is not one of {dof}")
     _refuse_jump(world, trajectory)
-    _refuse_excess(world.model, trajectory)
+    _refuse_excess(world.arm, trajectory)
     return trajectory
 
 
-def _refuse_jump(world: World, trajectory: JointTrajectory) -> None:
+def _refuse_jump(world: JointWorld, trajectory: JointTrajectory) -> None:
     x, y, yaw = world.gripper
-    begin = compose(world.model.mount.pose, world.model.arm.forward(trajectory.positions[0]))
+    begin = compose(world.mount.pose, world.arm.forward(trajectory.positions[0]))
     distance, turn = math.hypot(begin[0] - x, begin[1] - y), abs(_wrapped(yaw_of(begin) - yaw))
     joints = float(np.abs(trajectory.positions[0] - world.joints).max())
     if distance > START_POSITION or turn > START_ANGLE or joints > START_ANGLE:
@@ -76,10 +78,10 @@ def _wrapped(angle: float) -> float:
     return math.remainder(angle, math.tau)
 
 
-def _refuse_excess(model: Model, trajectory: JointTrajectory) -> None:
+def _refuse_excess(arm: ArmModel[Any], trajectory: JointTrajectory) -> None:
     spans = np.diff(trajectory.times)[:, None]
     steps = np.abs(np.diff(trajectory.positions, axis=0)) / np.where(spans > 0.0, spans, np.inf)
-    for column, joint in enumerate(model.arm.joints):
+    for column, joint in enumerate(arm.joints):
         q = trajectory.positions[:, column]
         if q.min() < joint.lower - 1e-6 or q.max() > joint.upper + 1e-6:
             raise InputError(

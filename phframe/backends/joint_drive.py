@@ -1,4 +1,4 @@
-"""Drives the arm of a MuJoCo world along one trajectory of its joints and tells what happened."""
+"""Drives the arm of a world along one trajectory of its joints and tells what happened."""
 
 from __future__ import annotations
 
@@ -6,17 +6,12 @@ import math
 from collections import deque
 from collections.abc import Iterator
 
-import mujoco
-
-from phframe.backends.mujoco_commands import accepted, commands
-from phframe.backends.mujoco_limiter import Limiter
-from phframe.backends.mujoco_touch import Touches
-from phframe.backends.mujoco_warnings import caught_warnings
-from phframe.backends.mujoco_world import World, read_state, refuse_divergence, spill
+from phframe.backends.joint_commands import accepted, commands
+from phframe.backends.joint_limiter import Limiter
+from phframe.backends.joint_touch import Touches
+from phframe.backends.joint_world import JointWorld
 from phframe.core import FORCE_WINDOW, Contact, JointTrajectory, Motion, Settle, Stop, Trajectory, Watch
 
-CONTROL_PERIOD = 0.004
-"""Between commands to the servos, and between looks at what the arm touches (s)."""
 SURVEY = 10
 """Control steps between looks at what has left the board."""
 CALM_CHECK = 5
@@ -40,23 +35,21 @@ class Drive:
     """
 
     def __init__(
-        self, world: World, trajectory: Trajectory, *, stall_lag: float, stop: Stop | None, watch: Watch | None
+        self, world: JointWorld, trajectory: Trajectory, *, stall_lag: float, stop: Stop | None, watch: Watch | None
     ) -> None:
-        self._world, self._model, self._data = world, world.model.mj, world.data
+        self._world = world
         self._trajectory: JointTrajectory = accepted(world, trajectory)
-        self._substeps = max(1, round(CONTROL_PERIOD / self._model.opt.timestep))
-        self._period = self._substeps * self._model.opt.timestep
+        self._period = world.period
         self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
         self._touches = Touches(world)
         window = max(1, round(FORCE_WINDOW / self._period))
         self._forces = deque([0.0] * window, maxlen=window)
         self._limiter = Limiter(world, self._trajectory.force_limit)
         self._tick, self._pressed, self._next_look = 0, 0, 0.0
-        self._tip = [0.0, 0.0, 0.0]
+        self._tip = (0.0, 0.0)
         self._force = self._lag = 0.0
         self._stalled, self._settled = False, True
         self._cause: str | None = None
-        self._warnings: list[str] = []
 
     def run(self, settle: Settle | None) -> Motion:
         """Follow the trajectory, then wait for rest.
@@ -64,9 +57,10 @@ class Drive:
         Raises:
             SimulationDivergedError: If the engine's numbers are no longer physical.
         """
+        self._world.refuse_divergence()
         self._world.parked = False
         self._look(always=True)
-        with caught_warnings() as self._warnings:
+        with self._world.running():
             self._follow()
             followed = self._tick * self._period
             self._limiter.release()
@@ -74,7 +68,7 @@ class Drive:
                 self._yield()
             if settle is not None:
                 self._settle(settle)
-            self._survey()
+            self._world.survey()
         self._look(always=True)
         return self._motion(followed)
 
@@ -83,39 +77,34 @@ class Drive:
         return self._stalled or self._cause is not None
 
     def _follow(self) -> None:
-        """Tell the servos where to be, step by step, until something ends it."""
-        told = commands(self._world.model, self._trajectory, self._period)
-        phase, ctrl = None, self._data.ctrl
+        """Tell the joints where to be, step by step, until something ends it."""
+        told = commands(self._world, self._trajectory, self._period)
+        phase = None
         for control, now, (x, y) in zip(told.controls, told.phases, told.tips.tolist(), strict=True):
             if now is not phase:
                 phase = now
                 self._touches.forget_phase()
-            ctrl[:] = control
+            self._world.tell(control)
             if self._pressed and self._limiter.heed(self._forces[-1], touched=any(self._forces)):
-                self._give_way()
+                self._world.give_way()
             self._advance()
             self._note_lag(x, y)
             if self._ended:
                 self._stalled = self._stalled and self._cause is None
                 return
-        self._data.ctrl[: self._world.model.dof] = self._trajectory.positions[-1]
-
-    def _give_way(self) -> None:
-        """Ask nothing of the arm but to come to a stop where it is."""
-        self._data.ctrl[: self._world.model.dof] = self._world.joints
+        self._world.hold_joints(self._trajectory.positions[-1])
 
     def _advance(self) -> None:
         """One control step. The hot path."""
-        mujoco.mj_step(self._model, self._data, self._substeps)
+        tip_x, tip_y, touching, force = self._world.advance()
         self._tick += 1
-        self._tip = self._data.xpos[self._world.model.tip].tolist()
-        touching, *force = self._data.sensordata.tolist()
+        self._tip = tip_x, tip_y
         if touching:
             self._pressed = len(self._forces)
         if self._pressed or self._world.held is not None:
-            self._feel(touching, math.hypot(*force))
+            self._feel(touching, force)
         if self._tick % SURVEY == 0:
-            self._survey()
+            self._world.survey()
         if self._watch is not None:
             self._look()
 
@@ -127,10 +116,6 @@ class Drive:
         self._force = max(self._force, sum(self._forces) / len(self._forces))
         if self._stop is not None and self._cause is None:
             self._cause = self._reason(self._stop)
-
-    def _survey(self) -> None:
-        refuse_divergence(self._world, self._warnings)
-        spill(self._world)
 
     def _note_lag(self, x: float, y: float) -> None:
         """See how far the fingertip is from where it is meant to be."""
@@ -150,9 +135,9 @@ class Drive:
     def _yield(self) -> None:
         """Let what presses on the arm push it back, and stand where it then is."""
         for _ in range(round(YIELDING / self._period)):
-            self._give_way()
+            self._world.give_way()
             self._advance()
-        self._give_way()
+        self._world.hold_joints(self._world.joints)
 
     def _settle(self, settle: Settle) -> None:
         """Wait until everything has been calm for long enough."""
@@ -169,7 +154,7 @@ class Drive:
         watch, time = self._watch, self._tick * self._period
         if watch is None or not (always or time >= self._next_look - 1e-9):
             return
-        watch.look(time, read_state(self._world))
+        watch.look(time, self._world.read_state())
         self._next_look = (math.floor(time / watch.period + 1e-9) + 1) * watch.period
 
     def _motion(self, followed: float) -> Motion:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from phframe.backends.mujoco_world import World
+from phframe.backends.joint_world import JointWorld
 from phframe.core import FloatArray
 
 LEVER = 1.0
@@ -30,13 +30,11 @@ class Limiter:
         limit: Of the net contact force (N).
     """
 
-    def __init__(self, world: World, limit: float) -> None:
-        model = world.model
+    def __init__(self, world: JointWorld, limit: float) -> None:
         self._world, self._limit = world, limit
-        self._effort = np.array([joint.effort for joint in model.arm.joints])
-        self._pushing = np.minimum(self._effort, limit * LEVER + model.mj.dof_M0[model.speeds] * HASTE)
+        self._effort = np.array([joint.effort for joint in world.arm.joints])
+        self._pushing = np.minimum(self._effort, limit * LEVER + world.inertias * HASTE)
         self._least = LEAST * self._effort
-        self._ranges = model.mj.actuator_forcerange[: model.dof]
         self._caps: FloatArray | None = self._least
         self.release()
 
@@ -55,8 +53,7 @@ class Limiter:
             self._caps = self._least
             return True
         if force > self._limit:
-            given = np.abs(self._world.data.actuator_force[: self._world.model.dof])
-            self._take(np.minimum(self._allowed, given * (self._limit / force)))
+            self._take(np.minimum(self._allowed, self._world.given * (self._limit / force)))
         elif not touched:
             self.release()
         elif self._caps is not self._pushing:
@@ -67,7 +64,7 @@ class Limiter:
     def release(self) -> None:
         """Give all joints their whole effort."""
         if self._caps is not None:
-            self._set(self._effort)
+            self._world.cap(self._effort)
             self._caps = None
 
     @property
@@ -76,7 +73,4 @@ class Limiter:
 
     def _take(self, caps: FloatArray) -> None:
         self._caps = caps if caps is self._pushing else np.maximum(caps, self._least)
-        self._set(self._caps)
-
-    def _set(self, caps: FloatArray) -> None:
-        self._ranges[:, 0], self._ranges[:, 1] = -caps, caps
+        self._world.cap(self._caps)

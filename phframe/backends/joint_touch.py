@@ -1,10 +1,10 @@
-"""What the arm touches, and what its fingers hold between them: read from MuJoCo's contacts."""
+"""What the arm touches, and what its fingers hold between them: read from the engine's contacts."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from phframe.backends.mujoco_world import World, hold
+from phframe.backends.joint_world import JointWorld, Pair
 from phframe.core import FloatArray
 
 OPPOSED = -0.7
@@ -27,10 +27,10 @@ class Touches:
         world: Whose contacts are read.
     """
 
-    def __init__(self, world: World) -> None:
-        self._world, self._model = world, world.model
+    def __init__(self, world: JointWorld) -> None:
+        self._world = world
         self.found: list[Touch] = []
-        self._known: set[tuple[int, int]] = set()
+        self._known: set[Pair] = set()
         self._count, self._read_at, self._told = 0.0, 0.0, 0
         self._last_grip = self._held_at = 0.0
 
@@ -59,14 +59,10 @@ class Touches:
     def _read(self, time: float) -> None:
         """Note what a part of the arm touches for the first time in this phase."""
         self._read_at = time
-        arm, names, walls = self._model.is_arm, self._model.names, self._model.is_wall
-        for one, other in self._world.data.contact.geom.tolist():
-            if arm[one] is arm[other]:
-                continue
-            pair = (one, other) if arm[one] else (other, one)
+        for pair in self._world.touching():
             if pair not in self._known:
                 self._known.add(pair)
-                self.found.append((time, names[pair[0]], names[pair[1]], walls[pair[1]]))
+                self.found.append((time, *self._world.names(pair)))
 
     def _hold(self, time: float) -> None:
         """An object is held from when it is squeezed until it has been out of the fingers' grip for a while."""
@@ -74,19 +70,16 @@ class Touches:
         if gripped is not None:
             self._last_grip = time
             if world.held != gripped:
-                hold(world, gripped)
+                world.hold(gripped)
         elif world.held is not None and time - self._last_grip > LOST:
-            hold(world, None)
+            world.hold(None)
 
     def _gripped(self) -> int | None:
         """Row of the object that both fingers press from opposite sides, if there is one."""
-        contact, sides, rows = self._world.data.contact, self._model.sides, self._model.rows
         pushes: dict[int, dict[int, FloatArray]] = {}
-        for index, (one, other) in enumerate(contact.geom.tolist()):
-            for finger, thing, sign in ((one, other, 1.0), (other, one, -1.0)):
-                if sides[finger] and rows[thing] is not None:
-                    fingers = pushes.setdefault(rows[thing], {})
-                    fingers[sides[finger]] = fingers.get(sides[finger], 0.0) + sign * contact.frame[index, :3]
+        for row, finger, push in self._world.pushes():
+            fingers = pushes.setdefault(row, {})
+            fingers[finger] = fingers.get(finger, 0.0) + push
         held = (row for row, fingers in pushes.items() if len(fingers) == 2 and _opposed(*fingers.values()))
         return next(held, None)
 
