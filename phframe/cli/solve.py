@@ -167,7 +167,7 @@ def solve(
     seed: Seed = 0,
     option: OptionTexts = None,
     time_limit: TimeLimit = 300.0,
-    max_replans: MaxReplans = 5,
+    max_replans: MaxReplans = 10,
     tolerance: Tolerance = 0.01,
     out: Out = None,
     rerun: Rerun = None,

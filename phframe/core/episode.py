@@ -35,7 +35,7 @@ class Loop:
         InputError: If a figure is negative or not a number.
     """
 
-    max_replans: int = 5
+    max_replans: int = 10
     tolerance: float = 0.01
     time_limit: float = 300.0
     simulations: int | None = None

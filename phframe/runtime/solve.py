@@ -34,7 +34,7 @@ def solve(
     seed: int = 0,
     options: Mapping[str, Mapping[str, Any]] | None = None,
     time_limit: float = 300.0,
-    max_replans: int = 5,
+    max_replans: int = 10,
     tolerance: float = 0.01,
     simulations: int | None = None,
     workers: int = 1,
