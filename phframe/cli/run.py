@@ -68,6 +68,7 @@ def _solve(request: Request, files: RunFiles, partial: PartialEpisode) -> Episod
             plan_arm=request.plan_arm,
             topology=request.topology,
             seed=request.seed,
+            noise=request.noise,
             options=request.options,
             time_limit=request.time_limit,
             max_replans=request.max_replans,

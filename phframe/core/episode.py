@@ -62,6 +62,7 @@ class Setup(Value):
         versions: Versions of phframe and the libraries used.
         plan_backend: Name of the physics backend on which it was planned; None: the same.
         plan_arm: Name of the arm for which it was planned; None: the same.
+        noise: What the planner believed against what is true, by key; empty: the same.
     """
 
     planner: str
@@ -74,6 +75,7 @@ class Setup(Value):
     versions: Mapping[str, str] = field(default_factory=dict, compare=False)
     plan_backend: str | None = None
     plan_arm: str | None = None
+    noise: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,8 +85,8 @@ class Step(Value):
     Attributes:
         action: What was to be done.
         trajectory: What was driven.
-        before: The world observed before it.
-        after: The world observed after it.
+        before: The world before it, as it was; a robot that measures with errors sees it otherwise.
+        after: The world after it, likewise.
         expected: What the plan expected after it; None where nothing was predicted.
         motion: What happened.
         decision: Why the action was chosen.
