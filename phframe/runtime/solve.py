@@ -22,6 +22,8 @@ from phframe.runtime.world import WorldSpec
 
 PLAN_BACKEND = "pymunk"
 """Where plans are made that an engine of joints carries out: many times faster."""
+PLAN_OPTIONS = {"standing_radius": 2.0 / 3.0, "arm_acceleration": 10.0}
+"""Of that backend, where an engine in space carries the plans out; see docs/fidelity.md."""
 OPTION_GROUPS = ("planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "scenes")
 """Whose options ``solve`` takes."""
 
@@ -109,14 +111,14 @@ def _plan_spec(
     spec: WorldSpec, backend: str | None, arm: str | None, given: Mapping[str, Mapping[str, Any]]
 ) -> WorldSpec:
     """What to plan in. Where backend or arm is that of the execution, so are its options, unless others are given."""
-    if backend is None:
-        backend = PLAN_BACKEND if load(Kind.BACKEND, spec.backend).executes is JointTrajectory else spec.backend
-    arm = arm or spec.arm
+    drives_joints = load(Kind.BACKEND, spec.backend).executes is JointTrajectory
+    backend, arm = backend or (PLAN_BACKEND if drives_joints else spec.backend), arm or spec.arm
+    fitted = PLAN_OPTIONS if drives_joints and backend == PLAN_BACKEND else {}
     return replace(
         spec,
         backend=backend,
         arm=arm,
-        backend_options={**(spec.backend_options if backend == spec.backend else {}), **given["plan_backend"]},
+        backend_options={**(spec.backend_options if backend == spec.backend else fitted), **given["plan_backend"]},
         arm_options={**(spec.arm_options if arm == spec.arm else {}), **given["plan_arm"]},
     )
 
