@@ -42,7 +42,7 @@ def commands(model: Model, trajectory: JointTrajectory, period: float) -> Comman
     seen = times - model.mj.opt.timestep  # a step leaves poses one step behind the joints
     tips = [np.interp(seen, gripper.times, gripper.poses[:, axis]) for axis in (0, 1)]
     legs = np.searchsorted(gripper.times, times - period / 2.0, side="right") - 1
-    phases = tuple(gripper.phases[min(leg, len(gripper.phases) - 1)] for leg in legs.tolist())
+    phases = tuple(map(gripper.phases.__getitem__, np.minimum(legs, len(gripper.phases) - 1).tolist()))
     return Commands(np.hstack([positions + model.lead * velocities, fingers]), phases, np.column_stack(tips))
 
 

@@ -43,6 +43,7 @@ class Drive:
         self, world: World, trajectory: Trajectory, *, stall_lag: float, stop: Stop | None, watch: Watch | None
     ) -> None:
         self._world, self._model, self._data = world, world.model.mj, world.data
+        self._tip, self._felt = self._data.xpos[world.model.tip, :2], self._data.sensordata  # the engine's own memory
         self._trajectory: JointTrajectory = accepted(world, trajectory)
         self._substeps = max(1, round(CONTROL_PERIOD / self._model.opt.timestep))
         self._period = self._substeps * self._model.opt.timestep
@@ -52,7 +53,6 @@ class Drive:
         self._forces = deque([0.0] * window, maxlen=window)
         self._limiter = Limiter(world, self._trajectory.force_limit)
         self._tick, self._pressed, self._next_look = 0, 0, 0.0
-        self._tip = [0.0, 0.0, 0.0]
         self._force = self._lag = 0.0
         self._stalled, self._settled = False, True
         self._cause: str | None = None
@@ -85,7 +85,7 @@ class Drive:
     def _follow(self) -> None:
         """Tell the servos where to be, step by step, until something ends it."""
         told = commands(self._world.model, self._trajectory, self._period)
-        phase, ctrl = None, self._data.ctrl
+        phase, ctrl, tip, hypot = None, self._data.ctrl, self._tip, math.hypot
         for control, now, (x, y) in zip(told.controls, told.phases, told.tips.tolist(), strict=True):
             if now is not phase:
                 phase = now
@@ -94,8 +94,11 @@ class Drive:
             if self._pressed and self._limiter.heed(self._forces[-1], touched=any(self._forces)):
                 self._give_way()
             self._advance()
-            self._note_lag(x, y)
-            if self._ended:
+            tip_x, tip_y = tip.tolist()
+            lag = hypot(tip_x - x, tip_y - y)
+            if lag > self._lag:
+                self._note_lag(lag)
+            if self._stalled or self._cause is not None:
                 self._stalled = self._stalled and self._cause is None
                 return
         self._data.ctrl[: self._world.model.dof] = self._trajectory.positions[-1]
@@ -107,14 +110,13 @@ class Drive:
     def _advance(self) -> None:
         """One control step. The hot path."""
         mujoco.mj_step(self._model, self._data, self._substeps)
-        self._tick += 1
-        self._tip = self._data.xpos[self._world.model.tip].tolist()
-        touching, *force = self._data.sensordata.tolist()
+        self._tick = tick = self._tick + 1
+        touching, x, y, z = self._felt.tolist()
         if touching:
             self._pressed = len(self._forces)
         if self._pressed or self._world.held is not None:
-            self._feel(touching, math.hypot(*force))
-        if self._tick % SURVEY == 0:
+            self._feel(touching, math.hypot(x, y, z))
+        if tick % SURVEY == 0:
             self._survey()
         if self._watch is not None:
             self._look()
@@ -132,10 +134,9 @@ class Drive:
         refuse_divergence(self._world, self._warnings)
         spill(self._world)
 
-    def _note_lag(self, x: float, y: float) -> None:
-        """See how far the fingertip is from where it is meant to be."""
-        lag = math.hypot(self._tip[0] - x, self._tip[1] - y)
-        self._lag = max(self._lag, lag)
+    def _note_lag(self, lag: float) -> None:
+        """Note how far at most the fingertip has been from where it is meant to be."""
+        self._lag = lag
         self._stalled = self._stalled or lag > self._stall_lag
 
     def _reason(self, stop: Stop) -> str | None:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
 from phframe.backends.mujoco_world import World, hold
-from phframe.core import FloatArray
 
 OPPOSED = -0.7
 """Two fingers hold what they press from opposite sides: the cosine between their pushes is below this."""
@@ -18,6 +17,7 @@ LOST = 0.1
 
 Touch = tuple[float, str, str, bool]
 """Time (s), part of the arm, what it met, whether that is a wall."""
+Vector = tuple[float, float, float]
 
 
 class Touches:
@@ -81,15 +81,17 @@ class Touches:
     def _gripped(self) -> int | None:
         """Row of the object that both fingers press from opposite sides, if there is one."""
         contact, sides, rows = self._world.data.contact, self._model.sides, self._model.rows
-        pushes: dict[int, dict[int, FloatArray]] = {}
-        for index, (one, other) in enumerate(contact.geom.tolist()):
-            for finger, thing, sign in ((one, other, 1.0), (other, one, -1.0)):
-                if sides[finger] and rows[thing] is not None:
-                    fingers = pushes.setdefault(rows[thing], {})
-                    fingers[sides[finger]] = fingers.get(sides[finger], 0.0) + sign * contact.frame[index, :3]
+        pushes: dict[int, dict[int, Vector]] = {}
+        for (one, other), (x, y, z) in zip(contact.geom.tolist(), contact.frame[:, :3].tolist(), strict=True):
+            side, row = sides[one] or sides[other], rows[other] if sides[one] else rows[one]
+            if side and row is not None:
+                sign, fingers = (1.0 if sides[one] else -1.0), pushes.setdefault(row, {})
+                fx, fy, fz = fingers.get(side, (0.0, 0.0, 0.0))
+                fingers[side] = fx + sign * x, fy + sign * y, fz + sign * z
         held = (row for row, fingers in pushes.items() if len(fingers) == 2 and _opposed(*fingers.values()))
         return next(held, None)
 
 
-def _opposed(one: FloatArray, other: FloatArray) -> bool:
-    return float(one @ other) < OPPOSED * float(np.linalg.norm(one) * np.linalg.norm(other))
+def _opposed(one: Vector, other: Vector) -> bool:
+    across = one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+    return across < OPPOSED * math.hypot(*one) * math.hypot(*other)

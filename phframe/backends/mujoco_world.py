@@ -154,9 +154,10 @@ def _take_out(world: World, row: int, pose: FloatArray) -> None:
 
 def spill(world: World) -> None:
     """Take out what has left the board."""
+    if world.data.qpos.take(world.model.depths_and_heights).min() >= 0.0:
+        return
     lying = world.data.qpos[world.model.lying]
-    suspects = np.flatnonzero((lying[:, 0] < 0.0) | (lying[:, 2] < 0.0))
-    for row in suspects:
+    for row in np.flatnonzero((lying[:, 0] < 0.0) | (lying[:, 2] < 0.0)):
         held = row == world.held
         if row not in world.spilled and condition_of(lying[row], held=held) is Condition.SPILLED:
             _take_out(world, int(row), lying[row])

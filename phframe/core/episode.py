@@ -107,9 +107,7 @@ class Step(Value):
         """Distance ``(k,)`` between expected and observed centre, of each object that moved or should have (m)."""
         if self.expected is None:
             return np.zeros(0)
-        before, after, expected = (state.poses[:, :3] for state in (self.before, self.after, self.expected))
-        moved = np.maximum(_distance(before, after), _distance(before, expected)) > MOVED
-        return _distance(after, expected)[moved]
+        return prediction_errors(self.before, self.expected, self.after)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -207,6 +205,13 @@ class Episode(Value):
         """Retrieved, and no object other than the target toppled or left the board, and the arm touched no wall."""
         harmed = {*self.toppled, *self.spilled} - {self.scene.target}
         return self.status is Status.RETRIEVED and not harmed and not self.wall_contact
+
+
+def prediction_errors(before: State, expected: State, after: State) -> FloatArray:
+    """Distance ``(k,)`` between expected and observed centre, of each object that moved or should have (m)."""
+    start, predicted, observed = (state.poses[:, :3] for state in (before, expected, after))
+    moved = np.maximum(_distance(start, observed), _distance(start, predicted)) > MOVED
+    return _distance(observed, predicted)[moved]
 
 
 def _distance(a: FloatArray, b: FloatArray) -> FloatArray:
