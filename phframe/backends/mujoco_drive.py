@@ -85,7 +85,7 @@ class Drive:
     def _follow(self) -> None:
         """Tell the servos where to be, step by step, until something ends it."""
         told = commands(self._world.model, self._trajectory, self._period)
-        phase, ctrl, tip, hypot = None, self._data.ctrl, self._tip, math.hypot
+        phase, ctrl = None, self._data.ctrl
         for control, now, (x, y) in zip(told.controls, told.phases, told.tips.tolist(), strict=True):
             if now is not phase:
                 phase = now
@@ -93,9 +93,8 @@ class Drive:
             ctrl[:] = control
             if self._pressed and self._limiter.heed(self._forces[-1], touched=any(self._forces)):
                 self._give_way()
-            self._advance()
-            tip_x, tip_y = tip.tolist()
-            lag = hypot(tip_x - x, tip_y - y)
+            tip_x, tip_y = self._advance()
+            lag = math.hypot(tip_x - x, tip_y - y)
             if lag > self._lag:
                 self._note_lag(lag)
             if self._stalled or self._cause is not None:
@@ -107,10 +106,11 @@ class Drive:
         """Ask nothing of the arm but to come to a stop where it is."""
         self._data.ctrl[: self._world.model.dof] = self._world.joints
 
-    def _advance(self) -> None:
-        """One control step. The hot path."""
+    def _advance(self) -> list[float]:
+        """One control step, and where the fingertip then is, x and y (m). The hot path."""
         mujoco.mj_step(self._model, self._data, self._substeps)
         self._tick = tick = self._tick + 1
+        tip: list[float] = self._tip.tolist()  # before anyone looks: that moves it on
         touching, x, y, z = self._felt.tolist()
         if touching:
             self._pressed = len(self._forces)
@@ -120,6 +120,7 @@ class Drive:
             self._survey()
         if self._watch is not None:
             self._look()
+        return tip
 
     def _feel(self, touching: float, force: float) -> None:
         """Note so many contacts of the arm and the force (N) on it, and what they are a reason to stop for."""
