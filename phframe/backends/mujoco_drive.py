@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Iterator
+from functools import partial
 
 import mujoco
 
@@ -47,6 +48,7 @@ class Drive:
         self._trajectory: JointTrajectory = accepted(world, trajectory)
         self._substeps = max(1, round(CONTROL_PERIOD / self._model.opt.timestep))
         self._period = self._substeps * self._model.opt.timestep
+        self._step = partial(mujoco.mj_step, self._model, self._data, self._substeps)
         self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
         self._touches = Touches(world)
         window = max(1, round(FORCE_WINDOW / self._period))
@@ -108,13 +110,11 @@ class Drive:
 
     def _advance(self) -> list[float]:
         """One control step, and where the fingertip then is, x and y (m). The hot path."""
-        mujoco.mj_step(self._model, self._data, self._substeps)
+        self._step()
         self._tick = tick = self._tick + 1
         tip: list[float] = self._tip.tolist()  # before anyone looks: that moves it on
         touching, x, y, z = self._felt.tolist()
-        if touching:
-            self._pressed = len(self._forces)
-        if self._pressed or self._world.held is not None:
+        if touching or self._pressed or self._world.held is not None:
             self._feel(touching, math.hypot(x, y, z))
         if tick % SURVEY == 0:
             self._survey()
@@ -124,10 +124,16 @@ class Drive:
 
     def _feel(self, touching: float, force: float) -> None:
         """Note so many contacts of the arm and the force (N) on it, and what they are a reason to stop for."""
-        self._pressed -= self._pressed > 0 and not touching
+        forces = self._forces
+        if touching:
+            self._pressed = len(forces)
+        elif self._pressed:
+            self._pressed -= 1
         self._touches.look(self._tick * self._period, touching)
-        self._forces.append(force)
-        self._force = max(self._force, sum(self._forces) / len(self._forces))
+        forces.append(force)
+        mean = sum(forces) / len(forces)
+        if mean > self._force:
+            self._force = mean
         if self._stop is not None and self._cause is None:
             self._cause = self._reason(self._stop)
 
@@ -142,7 +148,7 @@ class Drive:
 
     def _reason(self, stop: Stop) -> str | None:
         """Why to end early now, if there is a reason."""
-        for _, _, name, wall in self._touches.news():
+        for _, _, name, wall in self._touches.news() if self._touches.any_news else ():
             if (wall and stop.wall) or name in stop.bodies:
                 return f"contact with {'the ' if wall else ''}{name}"
         if stop.force is not None and self._force > stop.force:

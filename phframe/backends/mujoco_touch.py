@@ -47,6 +47,11 @@ class Touches:
         """Write down again what is touched already, as a new phase begins."""
         self._known, self._count = set(), 0.0
 
+    @property
+    def any_news(self) -> bool:
+        """Whether anything was found since ``news`` was last asked."""
+        return len(self.found) > self._told
+
     def news(self) -> list[Touch]:
         """What was found since this was last asked."""
         told, self._told = self._told, len(self.found)
