@@ -5,6 +5,7 @@
 TEST_EXTRAS ?= dev,rerun
 TEST_3D_EXTRAS ?= dev,mujoco,pybullet,ompl,baxter,meshes,video
 DEMO_EXTRAS ?= rerun
+BENCH_EXTRAS ?= dev,rerun,mujoco
 SCENE ?= vieira/basic
 3D := needs_mujoco or needs_pybullet or needs_ompl or needs_baxter or needs_meshes or needs_video
 PYTEST_FLAGS ?= --numprocesses=auto --benchmark-disable
@@ -46,7 +47,7 @@ lint: $(call stamp,$(TEST_EXTRAS)) ## check style, types, layers and spelling
 	@$(VENV)/bin/lint-imports
 	@$(VENV)/bin/codespell
 
-bench: $(call stamp,$(TEST_EXTRAS)) ## measure planning against bare loops
+bench: $(call stamp,$(BENCH_EXTRAS)) ## measure planning and simulation against bare loops
 	@$(VENV)/bin/python -m phframe.bench
 
 clean: ## remove .venv and all caches, keep runs/

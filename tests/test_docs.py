@@ -14,6 +14,7 @@ import typer
 
 import phframe
 from phframe import testing
+from phframe.bench.__main__ import command_line
 from phframe.cli.export_formats import FORMATS
 from phframe.cli.main import app
 from phframe.cli.option_list import describe
@@ -134,7 +135,7 @@ LINES = list(command_lines())
 @pytest.mark.parametrize("words", [words for _, words in LINES], ids=[where for where, _ in LINES])
 def test_command_lines_are_understood(words: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
-    understand = {"phframe": check_phframe, "make": check_make, "python": check_pip}
+    understand = {"phframe": check_phframe, "make": check_make, "python": check_python}
     understand[words[0]](words[1:])
 
 
@@ -182,6 +183,13 @@ def plugin_names() -> set[str]:
 def check_make(words: list[str]) -> None:
     makefile = (ROOT / "Makefile").read_text("utf-8")
     assert re.search(rf"^{words[0]}:.*##", makefile, flags=re.MULTILINE), f"no target {words[0]}"
+
+
+def check_python(words: list[str]) -> None:
+    if words[:2] == ["-m", "phframe.bench"]:
+        command_line().parse_args(words[2:])
+    else:
+        check_pip(words)
 
 
 def check_pip(words: list[str]) -> None:

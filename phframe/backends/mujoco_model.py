@@ -41,6 +41,7 @@ class Model:
         arm: In it.
         mount: Of the arm.
         lying: Of every object's pose in qpos, ``(n, 7)``.
+        depths_and_heights: Of every object's x and z in qpos ``(2n,)``.
         moving: Of every object's velocity in qvel, ``(n, 6)``.
         bodies: Of every object ``(n,)``.
         feet: Geoms that stand on the board, one for every object ``(n,)``.
@@ -62,6 +63,7 @@ class Model:
     arm: ArmModel[Any]
     mount: Mount
     lying: IntArray
+    depths_and_heights: IntArray
     moving: IntArray
     bodies: IntArray
     feet: IntArray
@@ -126,12 +128,14 @@ def _indexed(mj: Any, scene: Scene, arm: ArmModel[Any], mount: Mount) -> Model:
     is_arm = tuple(mj.geom(row).name.startswith(PREFIX) for row in range(mj.ngeom))
     rows = {int(mj.body(object_name(row)).id): row for row in range(len(scene.objects))}
     links = [mj.body(PREFIX + link).id for link in arm.fingers.links]
+    lying = np.array([joint.qposadr[0] + np.arange(7) for joint in objects]).reshape(-1, 7)
     return Model(
         mj=mj,
         scene=scene,
         arm=arm,
         mount=mount,
-        lying=np.array([joint.qposadr[0] + np.arange(7) for joint in objects]).reshape(-1, 7),
+        lying=lying,
+        depths_and_heights=lying[:, [0, 2]].ravel(),
         moving=np.array([joint.dofadr[0] + np.arange(6) for joint in objects]).reshape(-1, 6),
         bodies=np.array([mj.body(object_name(row)).id for row in range(len(scene.objects))]),
         feet=np.array([mj.geom(foot_name(row)).id for row in range(len(scene.objects))]),

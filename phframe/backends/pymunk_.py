@@ -44,6 +44,10 @@ class PymunkOptions(Options):
         object_friction: Coulomb coefficient between objects.
         arm_friction: Coulomb coefficient between the arm and objects.
         arm_mass: Inertia of the arm as the world feels it (kg).
+        arm_acceleration: With which the arm comes to rest at the corners of its path (m/s^2); None: it stops dead.
+        standing_radius: Share of its radius at which an object stands on the board; friction acts there, so that what
+            slides is easily turned. 2/3 resists turning on the spot as a disc does that presses evenly. None: turning
+            is resisted as if nothing slid.
         stall_lag: How far the arm may fall behind its trajectory before it counts as stalled (m).
     """
 
@@ -52,6 +56,8 @@ class PymunkOptions(Options):
     object_friction: Annotated[float, Field(gt=0.0, le=2.0)] = 0.2
     arm_friction: Annotated[float, Field(ge=0.0, le=2.0)] = 0.3
     arm_mass: Annotated[float, Field(gt=0.0, le=100.0)] = 4.0
+    arm_acceleration: Annotated[float, Field(gt=0.0, le=1000.0)] | None = None
+    standing_radius: Annotated[float, Field(gt=0.0, le=1.0)] | None = None
     stall_lag: Annotated[float, Field(gt=0.0, le=0.1)] = 0.005
 
 
@@ -82,16 +88,18 @@ class PymunkPhysics(Physics[PymunkOptions]):
     def model(self) -> Model:
         """What all worlds that this object builds have in common."""
         o, shape = self.options, self.arm.shape
-        surfaces = Surfaces(o.object_friction, o.arm_friction)
+        surfaces = Surfaces(o.object_friction, o.arm_friction, o.standing_radius)
         return Model(self.scene, shape, take_measures(shape), surfaces, o.iterations, o.arm_mass)
 
     def execute(
         self, trajectory: Trajectory, *, settle: Settle | None, stop: Stop | None = None, watch: Watch | None = None
     ) -> Motion:
         """Drive the gripper along a trajectory."""
+        o, corners = self.options, settle is not None and isinstance(trajectory, GripperTrajectory)
         gripper = trajectory if isinstance(trajectory, GripperTrajectory) else trajectory.gripper
+        braking = o.arm_acceleration if corners else None  # a joint trajectory has its times from what the arm can do
         drive = Drive(
-            self._current, gripper, step=self.options.step, stall_lag=self.options.stall_lag, stop=stop, watch=watch
+            self._current, gripper, step=o.step, stall_lag=o.stall_lag, acceleration=braking, stop=stop, watch=watch
         )
         return drive.run(settle)
 

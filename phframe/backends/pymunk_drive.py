@@ -8,6 +8,7 @@ from collections import deque
 import numpy as np
 
 from phframe.backends.pymunk_gripper import between_fingers, gripped, hold, place_arm, place_held, release, set_opening
+from phframe.backends.pymunk_pace import Pace, pace
 from phframe.backends.pymunk_quiet import free_share, is_still, stays_outside
 from phframe.backends.pymunk_report import motion_of
 from phframe.backends.pymunk_state import is_calm, read_state, refuse_divergence, spill
@@ -34,6 +35,7 @@ class Drive:
         trajectory: Where the fingertip goes.
         step: Time step (s).
         stall_lag: How far the arm may fall behind before it counts as stalled (m).
+        acceleration: With which the arm brakes at the end of each leg (m/s^2); None: it stops dead.
         stop: When to end early.
         watch: Who looks on.
     """
@@ -45,11 +47,13 @@ class Drive:
         *,
         step: float,
         stall_lag: float,
+        acceleration: float | None,
         stop: Stop | None,
         watch: Watch | None,
     ) -> None:
         self._world, self._trajectory, self._step = world, trajectory, step
         self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
+        self._acceleration = acceleration
         self._ticks = np.rint(trajectory.times / step).astype(int).tolist()
         window = max(1, round(FORCE_WINDOW / step))
         self._impulses: deque[float] = deque([0.0] * window, window)
@@ -95,24 +99,34 @@ class Drive:
         world.arm.body.each_arbiter(note_contact, world.space, world)
         if trajectory.openings[leg] != trajectory.openings[leg + 1]:
             self._open_or_close(leg, end)
+        pace = self._pace(leg, end - world.tick)
         while world.tick < end and not self._ended:
-            self._pass_over(leg, end)
+            if world.tick < end - pace.braking:
+                self._pass_over(leg, end, pace)
             if world.tick < end:
-                self._drive(leg, end, min(world.tick + STRETCH, end))
+                self._drive(leg, end, pace)
         refuse_divergence(world)
 
-    def _pass_over(self, leg: int, end: int) -> None:
+    def _pace(self, leg: int, steps: int) -> Pace:
+        """How to come to rest at the end of a leg."""
+        if self._acceleration is None or steps <= 0:
+            return Pace()
+        x, y, _ = self._trajectory.poses[leg + 1] - self._trajectory.poses[leg]
+        return pace(math.hypot(x, y), steps, self._acceleration * self._step**2)
+
+    def _pass_over(self, leg: int, end: int, pace: Pace) -> None:
         """Put the arm as far along a leg as nothing can happen, showing it on the way to whoever looks on."""
         world, target = self._world, self._trajectory.poses[leg + 1]
         if not (world.at_rest or is_still(world)):
             return
         start = np.array([*world.arm.carrier.position, world.arm.carrier.angle])
         held = None if world.held is None else np.array(world.items[world.held].body.position)
-        begin = world.tick
-        free = math.floor(free_share(world, start, target) * (end - begin))
+        begin, work = world.tick, pace.work(end - world.tick)
+        share = free_share(world, start, target)
+        free = end - begin if share >= 1.0 else min(math.floor(share * work), end - begin - pace.braking)
         self._impulses.extend([0.0] * min(free, len(self._impulses)))
         for world.tick in self._stops(begin, begin + free):
-            way = (target - start) * ((world.tick - begin) / (end - begin))
+            way = (target - start) * (1.0 - pace.work(end - world.tick) / work)
             place_arm(world, start + way)
             if held is not None:
                 place_held(world, held + way[:2])
@@ -125,12 +139,12 @@ class Drive:
         first = (begin // self._period + 1) * self._period
         return [*range(first, end, self._period), end]
 
-    def _drive(self, leg: int, end: int, until: int) -> None:
-        """Step along a leg until a number of steps, looking after the arm on the way."""
-        world = self._world
-        self._set_speed(self._trajectory.poses[leg + 1], (end - world.tick) * self._step)
+    def _drive(self, leg: int, end: int, pace: Pace) -> None:
+        """Step along a leg as long as the speed stays, looking after the arm on the way."""
+        world, left = self._world, end - self._world.tick
+        self._set_speed(self._trajectory.poses[leg + 1], pace.steps(left) * self._step)
         world.at_rest = False
-        self._advance(until)
+        self._advance(world.tick + min(STRETCH, max(left - pace.braking, 1)))
         spill(world)
 
     def _open_or_close(self, leg: int, end: int) -> None:

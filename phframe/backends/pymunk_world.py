@@ -15,6 +15,10 @@ GRAVITY = 9.81
 WALL_THICKNESS = 0.1
 ARM, OBJECT, WALL = 1, 2, 3
 """Collision types."""
+FEET = 6
+"""Points that an object stands on; fewer resist differently in different directions."""
+TRIM = 1e-6
+"""By how much the arm's outlines are smaller than they are (m)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,10 +28,12 @@ class Surfaces:
     Attributes:
         objects: Object against object.
         arm: Arm against object.
+        standing: Share of its radius at which an object stands on the board; None: it slides and turns separately.
     """
 
     objects: float
     arm: float
+    standing: float | None
 
     @property
     def object_factor(self) -> float:
@@ -47,7 +53,7 @@ class Item:
     body: pymunk.Body
     shape: pymunk.Shape
     radius: float
-    floor: tuple[pymunk.Constraint, pymunk.Constraint]
+    floor: tuple[pymunk.Constraint, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,14 +228,42 @@ def _add_item(space: pymunk.Space, scene: Scene, item: SceneObject, pose: FloatA
     circle.friction = surfaces.object_factor
     circle.collision_type = OBJECT
     weight = coulomb_with_board(scene, item) * mass * GRAVITY
+    floor = (
+        _sliding_and_turning(space, body, weight, radius)
+        if surfaces.standing is None
+        else _feet(space, body, weight, radius * surfaces.standing)
+    )
+    space.add(body, circle, *floor)
+    return Item(item.id, body, circle, radius, floor)
+
+
+def _sliding_and_turning(
+    space: pymunk.Space, body: pymunk.Body, weight: float, radius: float
+) -> tuple[pymunk.Constraint, ...]:
+    """Friction with the board in two joints that know nothing of one another."""
     slide = pymunk.PivotJoint(space.static_body, body, (0.0, 0.0), (0.0, 0.0))
     # A disc that presses evenly on the board resists turning with 2/3 mu m g r.
     spin = pymunk.GearJoint(space.static_body, body, 0.0, 1.0)
-    for joint, limit in ((slide, weight), (spin, weight * radius * 2.0 / 3.0)):
-        joint.max_bias = 0.0
-        joint.max_force = limit
-    space.add(body, circle, slide, spin)
-    return Item(item.id, body, circle, radius, (slide, spin))
+    return _limited(slide, weight), _limited(spin, weight * radius * 2.0 / 3.0)
+
+
+def _feet(space: pymunk.Space, body: pymunk.Body, weight: float, distance: float) -> tuple[pymunk.Constraint, ...]:
+    """Friction with the board at points the object stands on: where it slides already, little turns it."""
+    angles = [math.tau * foot / FEET for foot in range(FEET)]
+    points = [(distance * math.cos(angle), distance * math.sin(angle)) for angle in angles]
+    return tuple(_limited(pymunk.PivotJoint(space.static_body, body, (0.0, 0.0), at), weight / FEET) for at in points)
+
+
+def _limited(joint: pymunk.Constraint, force: float) -> pymunk.Constraint:
+    joint.max_bias = 0.0
+    joint.max_force = force
+    return joint
+
+
+def _trimmed(vertices: FloatArray) -> tuple[tuple[float, float], ...]:
+    """An outline, a trifle smaller: a centre exactly in line with an edge, where planners aim, Chipmunk takes for inside."""
+    middle = (vertices.max(axis=0) + vertices.min(axis=0)) / 2.0
+    return tuple((x, y) for x, y in (vertices - TRIM * np.sign(vertices - middle)).tolist())
 
 
 def _add_arm(space: pymunk.Space, shape: ArmShape, surfaces: Surfaces, mass: float) -> Arm:
@@ -240,7 +274,7 @@ def _add_arm(space: pymunk.Space, shape: ArmShape, surfaces: Surfaces, mass: flo
     space.add(body, carrier, drive, align)
     parts, fingers = [], []
     for outline in shape.closed:
-        corners = tuple((x, y) for x, y in outline.vertices.tolist())
+        corners = _trimmed(outline.vertices)
         polygon = pymunk.Poly(body, corners)
         polygon.friction = surfaces.partner_factor(surfaces.arm)
         polygon.collision_type = ARM

@@ -16,6 +16,7 @@ from rich.table import Table
 from phframe.bench.outcomes import Outcome, Tally, choices, run_suite, tally
 from phframe.bench.overhead import measure
 from phframe.bench.single import diagram_time, help_times
+from phframe.bench.space import fit_in_space, measure_in_space
 from phframe.runtime.files import write_whole
 from phframe.runtime.scenes import scene_names
 
@@ -23,19 +24,33 @@ PUBLISHED = ("vieira", "papallas")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Measure everything, or what the arguments name."""
-    parser = argparse.ArgumentParser(prog="python -m phframe.bench", description="Measure phframe.")
-    parser.add_argument("--planners", nargs="+", default=["phia", "ooa"], help="planners to run on the suites")
-    parser.add_argument("--out", type=Path, default=Path("runs/bench.json"), help="file for the figures")
-    given = parser.parse_args(arguments)
+    """Measure everything, or fit pymunk to MuJoCo."""
+    given = command_line().parse_args(arguments)
     console = Console()
     scenes = [name for name in scene_names() if name.startswith(PUBLISHED)]
-    figures = {
-        "suites": _suites(console, given.planners, scenes),
-        "overhead": _overhead(console, scenes),
-        "single": _single(console),
-    }
-    console.print(f"figures: {write_whole(given.out, json.dumps(figures, indent=1))}")
+    if given.what == "calibrate":
+        figures = fit_in_space(console, given.scenes, scenes)
+    else:
+        figures = {
+            "suites": _suites(console, given.planners, scenes),
+            "overhead": _overhead(console, scenes),
+            "single": _single(console),
+            **measure_in_space(console, scenes),
+        }
+    out = given.out or Path("runs") / f"{'bench' if given.what == 'all' else given.what}.json"
+    console.print(f"figures: {write_whole(out, json.dumps(figures, indent=1))}")
+
+
+def command_line() -> argparse.ArgumentParser:
+    """What can be asked for."""
+    parser = argparse.ArgumentParser(prog="python -m phframe.bench", description="Measure phframe.")
+    parser.add_argument("what", nargs="?", choices=["all", "calibrate"], default="all", help="calibrate: fit pymunk")
+    parser.add_argument("--planners", nargs="+", default=["phia", "ooa"], help="planners to run on the suites")
+    parser.add_argument("--scenes", type=int, default=40, help="random scenes to fit to, and as many to judge by")
+    parser.add_argument(
+        "--out", type=Path, help="file for the figures; the default is runs/bench.json or runs/calibrate.json"
+    )
+    return parser
 
 
 def _suites(console: Console, planners: Sequence[str], scenes: Sequence[str]) -> list[dict[str, Any]]:

@@ -20,6 +20,7 @@ class Request:
         plan_arm: As ``planner``; None: the arm.
         topology: As ``planner``.
         seed: Of everything random.
+        noise: As text; None: there is none.
         options: As text, by part and key.
         time_limit: Longest planning time (s).
         max_replans: How often to plan anew.
@@ -40,6 +41,7 @@ class Request:
     plan_arm: str | None
     topology: str
     seed: int
+    noise: str | None
     options: Mapping[str, Mapping[str, str]]
     time_limit: float
     max_replans: int

@@ -71,6 +71,7 @@ def _solve(request: Request, observers: Sequence[Observer], progress: Progress) 
             plan_arm=request.plan_arm,
             topology=request.topology,
             seed=request.seed,
+            noise=request.noise,
             options=request.options,
             time_limit=request.time_limit,
             max_replans=request.max_replans,

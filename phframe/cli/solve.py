@@ -87,6 +87,16 @@ Seed = Annotated[
     int,
     typer.Option("--seed", metavar="INTEGER", min=0, help="Seed of everything random; the same seed, the same result."),
 ]
+NoiseText = Annotated[
+    str | None,
+    typer.Option(
+        "--noise",
+        metavar="KEY=VALUE,...",
+        help="What the planner believes against what is true: position=0.005 (standard deviation of where it sees an "
+        "object, m), friction=0.3 (relative standard deviation of its friction with the board), or both.",
+        show_default="none",
+    ),
+]
 OptionTexts = Annotated[
     list[str] | None,
     typer.Option(
@@ -165,6 +175,7 @@ def solve(
     plan_arm: PlanArmSpec = None,
     topology: TopologySpec = "ripser",
     seed: Seed = 0,
+    noise: NoiseText = None,
     option: OptionTexts = None,
     time_limit: TimeLimit = 300.0,
     max_replans: MaxReplans = 10,
@@ -193,6 +204,7 @@ def solve(
         plan_arm=plan_arm,
         topology=topology,
         seed=seed,
+        noise=noise,
         options=parse_options(option or ()),
         time_limit=time_limit,
         max_replans=max_replans,

@@ -62,6 +62,7 @@ class Setup(Value):
         versions: Versions of phframe and the libraries used.
         plan_backend: Name of the physics backend on which it was planned; None: the same.
         plan_arm: Name of the arm for which it was planned; None: the same.
+        noise: What the planner believed against what is true, by key; empty: the same.
     """
 
     planner: str
@@ -74,6 +75,7 @@ class Setup(Value):
     versions: Mapping[str, str] = field(default_factory=dict, compare=False)
     plan_backend: str | None = None
     plan_arm: str | None = None
+    noise: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,8 +85,8 @@ class Step(Value):
     Attributes:
         action: What was to be done.
         trajectory: What was driven.
-        before: The world observed before it.
-        after: The world observed after it.
+        before: The world before it, as it was; a robot that measures with errors sees it otherwise.
+        after: The world after it, likewise.
         expected: What the plan expected after it; None where nothing was predicted.
         motion: What happened.
         decision: Why the action was chosen.
@@ -105,9 +107,7 @@ class Step(Value):
         """Distance ``(k,)`` between expected and observed centre, of each object that moved or should have (m)."""
         if self.expected is None:
             return np.zeros(0)
-        before, after, expected = (state.poses[:, :3] for state in (self.before, self.after, self.expected))
-        moved = np.maximum(_distance(before, after), _distance(before, expected)) > MOVED
-        return _distance(after, expected)[moved]
+        return prediction_errors(self.before, self.expected, self.after)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -205,6 +205,13 @@ class Episode(Value):
         """Retrieved, and no object other than the target toppled or left the board, and the arm touched no wall."""
         harmed = {*self.toppled, *self.spilled} - {self.scene.target}
         return self.status is Status.RETRIEVED and not harmed and not self.wall_contact
+
+
+def prediction_errors(before: State, expected: State, after: State) -> FloatArray:
+    """Distance ``(k,)`` between expected and observed centre, of each object that moved or should have (m)."""
+    start, predicted, observed = (state.poses[:, :3] for state in (before, expected, after))
+    moved = np.maximum(_distance(start, observed), _distance(start, predicted)) > MOVED
+    return _distance(observed, predicted)[moved]
 
 
 def _distance(a: FloatArray, b: FloatArray) -> FloatArray:

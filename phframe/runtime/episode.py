@@ -37,6 +37,7 @@ from phframe.pushing.reach import Grasp, grasp_action
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
+from phframe.runtime.sensor import Sensor
 
 FRAME_PERIOD = 1.0 / 30.0
 """Of the world's time, between the moments that observers are shown (s)."""
@@ -53,6 +54,7 @@ def run_episode(
     setup: Setup,
     loop: Loop = Loop(),  # noqa: B008 - immutable
     observers: Sequence[Observer] = (),
+    sensor: Sensor | None = None,
 ) -> Episode:
     """Plan in one world and carry the plan out in another, which may be more real.
 
@@ -66,8 +68,11 @@ def run_episode(
         setup: What to note in the episode.
         loop: When to replan, and how often.
         observers: Who looks on.
+        sensor: Through which the robot sees the world: what it plans, expects and aims at comes from that, what is told
+            of the episode from the world as it is. None: it sees everything as it is.
     """
-    return _Run(planner, topology, planning, execution, setup, loop, observers).episode()
+    see = (lambda state: state) if sensor is None else sensor.see
+    return _Run(planner, topology, planning, execution, setup, loop, observers, see).episode()
 
 
 class _Run:
@@ -82,26 +87,31 @@ class _Run:
         setup: Setup,
         loop: Loop,
         observers: Sequence[Observer],
+        see: Callable[[State], State],
     ) -> None:
         self._planner, self._topology, self._planning, self._execution = planner, topology, planning, execution
-        self._setup, self._loop, self._observers = setup, loop, observers
+        self._setup, self._loop, self._observers, self._see = setup, loop, observers, see
         self._scene = execution.scene
         self._seeds = np.random.SeedSequence(setup.seed)
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
         self._rejected: tuple[Action, ...] = ()
-        self._state = self._planned_from = self._scene.initial_state()
+        self._state = self._seen = self._planned_from = self._scene.initial_state()
 
     def episode(self) -> Episode:
         arm = MountedArm(self._execution.arm, self._execution.mount, self._execution.by_joints)
         self._tell(lambda observer: observer.begin(self._scene, self._setup, arm))
-        self._state = self._execution.start()
+        self._note(self._execution.start())
         status, reason = self._outcome()
         spent = self._execution.lifting_time + self._planning.lifting_time
         plans, steps = tuple(self._plans), tuple(self._steps)
         episode = Episode(self._scene, self._setup, status, reason, plans, steps, spent)
         self._tell(lambda observer: observer.finished(episode))
         return episode
+
+    def _note(self, state: State) -> None:
+        """Note what the world is now, and what the robot sees of it."""
+        self._state, self._seen = state, self._see(state)
 
     def _outcome(self) -> tuple[Status, str]:
         """How it went; a simulation that diverges is an outcome, too."""
@@ -138,7 +148,7 @@ class _Run:
         spent, loop = sum((plan.cost for plan in self._plans), Cost()), self._loop
         simulations = None if loop.simulations is None else max(0, loop.simulations - spent.simulated_actions)
         task = self._planning.task(
-            self._state if self._same_arm else replace(self._state, held=None, arm=None),
+            self._seen if self._same_arm else replace(self._seen, held=None, arm=None),
             self._topology,
             np.random.default_rng(self._seeds.spawn(1)[0]),
             arm=self._execution.arm.shape,
@@ -186,15 +196,15 @@ class _Run:
     def _aimed(self, action: Action, planned: State) -> Action:
         """A planned grasp, moved along with the target to where it is now."""
         row = self._scene.target_index
-        shift = np.append(self._state.positions[row] - planned.positions[row], 0.0)
+        shift = np.append(self._seen.positions[row] - planned.positions[row], 0.0)
         return replace(action, path=replace(action.path, poses=action.path.poses + shift))
 
     def _find_grasp(self, plan: Plan) -> Grasp | Infeasible:
-        arm, target = self._execution.arm.shape, self._state.positions[self._scene.target_index]
+        arm, target = self._execution.arm.shape, self._seen.positions[self._scene.target_index]
         corridor = find_corridor(target, self._scene.shelf, self._half_width(plan))
         if isinstance(corridor, Infeasible):
             return corridor
-        return grasp_action(self._scene, self._state, corridor, arm, self._pushing_options, self._rejected)
+        return grasp_action(self._scene, self._seen, corridor, arm, self._pushing_options, self._rejected)
 
     @property
     def _pushing_options(self) -> PushingOptions:
@@ -224,14 +234,14 @@ class _Run:
     def _step(self, action: Action, expected: State | None, decision: Decision) -> str:
         """Carry out one action; why not, where the arm cannot."""
         before = self._state
-        trajectory = self._execution.lift(before, action)
+        trajectory = self._execution.lift(self._seen, action)
         if isinstance(trajectory, Unreachable):
             self._rejected = (*self._rejected, action)
             return f"the arm cannot do {action.name}: {trajectory.why}"
         frames: list[tuple[float, State]] = []
         watch = Watch(FRAME_PERIOD, lambda time, state: frames.append((time, state))) if self._observers else None
         motion = self._execution.execute(trajectory, watch)
-        self._state = self._execution.observe()
+        self._note(self._execution.observe())
         step = Step(action, trajectory, before, self._state, expected, motion, decision, len(self._plans) - 1)
         self._steps.append(step)
         self._tell(lambda observer: observer.stepped(step, frames))
@@ -239,7 +249,7 @@ class _Run:
 
     def _deviation(self, expected: State, action: Action) -> str:
         """What is not where it was expected, if anything."""
-        deviation = self._state.displacement(expected)
+        deviation = self._seen.displacement(expected)
         worst = int(deviation.argmax())
         if deviation[worst] <= self._loop.tolerance:
             return ""

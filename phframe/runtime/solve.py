@@ -12,14 +12,18 @@ from phframe.core import Episode, JointTrajectory, Loop, OptionError, Scene, Set
 from phframe.registry import Kind, create, load
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
+from phframe.runtime.noise import Noise
 from phframe.runtime.observer import Observer
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
+from phframe.runtime.sensor import Sensor
 from phframe.runtime.versions import versions
 from phframe.runtime.world import WorldSpec
 
 PLAN_BACKEND = "pymunk"
 """Where plans are made that an engine of joints carries out: many times faster."""
+PLAN_OPTIONS = {"standing_radius": 2.0 / 3.0, "arm_acceleration": 10.0}
+"""Of that backend, where an engine in space carries the plans out; see docs/fidelity.md."""
 OPTION_GROUPS = ("planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "scenes")
 """Whose options ``solve`` takes."""
 
@@ -40,6 +44,7 @@ def solve(
     workers: int = 1,
     plan_backend: str | None = None,
     plan_arm: str | None = None,
+    noise: str | Mapping[str, Any] | None = None,
     observers: Sequence[Observer] = (),
 ) -> Episode:
     """Take the target out of a shelf: plan, carry out, observe, replan, grasp, withdraw.
@@ -61,6 +66,8 @@ def solve(
         plan_backend: Registered name of the physics engine to plan in; None: pymunk where ``backend`` drives joints,
             else ``backend``.
         plan_arm: Registered name of the arm to plan with; None: ``arm``.
+        noise: By how much what the planner believes differs from what is true: ``position`` (m) and ``friction``
+            (relative), standard deviations, as a mapping or as text such as ``position=0.005,friction=0.3``.
         observers: Who looks on; they are closed at the end, also when it is interrupted.
 
     Raises:
@@ -69,6 +76,7 @@ def solve(
     with ExitStack() as stack:
         for observer in observers:
             stack.callback(observer.close)
+        disturbance = Noise.of(noise)
         given, loop = _by_group(options or {}), Loop(max_replans, tolerance, time_limit, simulations)
         if not seed >= 0 or seed != int(seed):
             raise OptionError(f"a seed is a whole number of 0 or more, not {seed!r}")
@@ -76,7 +84,8 @@ def solve(
         plan_spec = _plan_spec(spec, plan_backend, plan_arm, given)
         search = create(Kind.PLANNER, planner, given["planner"])
         engine = create(Kind.TOPOLOGY, topology, given["topology"])
-        planning = stack.enter_context(PlanningWorld(plan_spec, workers))
+        believed = replace(plan_spec, scene=disturbance.believed(spec.scene, seed))
+        planning = stack.enter_context(PlanningWorld(believed, workers))
         execution = stack.enter_context(ExecutionWorld(spec))
         used = {"planner": search, "backend": execution.physics, "arm": execution.arm, "topology": engine}
         if plan_spec != spec:
@@ -92,22 +101,24 @@ def solve(
             versions(backend, plan_spec.backend, topology),
             plan_spec.backend if plan_spec.backend != backend else None,
             plan_spec.arm if plan_spec.arm != arm else None,
+            disturbance.model_dump(exclude_defaults=True),
         )
-        return run_episode(search, engine, planning, execution, setup, loop, observers)
+        sensor = Sensor(disturbance, spec.scene, execution.arm.shape, seed)
+        return run_episode(search, engine, planning, execution, setup, loop, observers, sensor)
 
 
 def _plan_spec(
     spec: WorldSpec, backend: str | None, arm: str | None, given: Mapping[str, Mapping[str, Any]]
 ) -> WorldSpec:
     """What to plan in. Where backend or arm is that of the execution, so are its options, unless others are given."""
-    if backend is None:
-        backend = PLAN_BACKEND if load(Kind.BACKEND, spec.backend).executes is JointTrajectory else spec.backend
-    arm = arm or spec.arm
+    drives_joints = load(Kind.BACKEND, spec.backend).executes is JointTrajectory
+    backend, arm = backend or (PLAN_BACKEND if drives_joints else spec.backend), arm or spec.arm
+    fitted = PLAN_OPTIONS if drives_joints and backend == PLAN_BACKEND else {}
     return replace(
         spec,
         backend=backend,
         arm=arm,
-        backend_options={**(spec.backend_options if backend == spec.backend else {}), **given["plan_backend"]},
+        backend_options={**(spec.backend_options if backend == spec.backend else fitted), **given["plan_backend"]},
         arm_options={**(spec.arm_options if arm == spec.arm else {}), **given["plan_arm"]},
     )
 

@@ -18,7 +18,8 @@ def summarize(episode: Episode, recording: Path | None = None) -> dict[str, Any]
     ``actions`` counts pushes (the paper's number of actions), ``planning_time`` is wall time with all replans (s),
     ``execution_time`` simulated time (s), ``target_moved`` before the grasp (m), ``spilled`` leaves a retrieved target out.
     ``motion_planning_time`` is wall time for lifting to joints (s), ``tracking_error`` the fingertip's worst (m),
-    ``prediction_error`` of the objects that actions moved (m), or null where nothing was predicted or moved.
+    ``prediction_error`` of the objects that actions moved (m), or null where nothing was predicted or moved; ``noise`` is
+    that of what the planner believed, empty where it was told the truth.
     """
     setup, cost = episode.setup, episode.cost
     return {
@@ -31,6 +32,7 @@ def summarize(episode: Episode, recording: Path | None = None) -> dict[str, Any]
         "plan_arm": setup.plan_arm or setup.arm,
         "topology": setup.topology,
         "seed": setup.seed,
+        "noise": dict(setup.noise),
         "status": str(episode.status),
         "reason": episode.reason,
         "actions": episode.pushes,

@@ -50,7 +50,7 @@ def test_the_whole_benchmark_leaves_its_figures(
     monkeypatch.setattr(bench, "help_times", partial(help_times, 1))
     bench.main(["--planners", "phia", "--out", str(tmp_path / "new" / "bench.json")])
     figures = json.loads((tmp_path / "new" / "bench.json").read_text())
-    assert set(figures) == {"suites", "overhead", "single"}
+    assert set(figures) == {"suites", "overhead", "single", "simulation", "prediction"}
     assert [(row["suite"], row["scenes"], row["retrieved"]) for row in figures["suites"]] == [
         ("vieira", 1, 1),
         ("papallas", 1, 1),
@@ -59,5 +59,5 @@ def test_the_whole_benchmark_leaves_its_figures(
     assert [row["scene"] for row in figures["overhead"]] == list(SCENES)
     assert all(value > 0.0 for value in figures["single"].values())
     printed = capsys.readouterr().out
-    for word in ("phia on the published scenes", "PHIA planning", "Single figures", "figures: "):
+    for word in ("phia on the published scenes", "PHIA planning", "Single figures", "In space", "figures: "):
         assert word in printed
