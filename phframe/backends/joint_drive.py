@@ -46,7 +46,6 @@ class Drive:
         self._forces = deque([0.0] * window, maxlen=window)
         self._limiter = Limiter(world, self._trajectory.force_limit)
         self._tick, self._pressed, self._next_look = 0, 0, 0.0
-        self._tip = (0.0, 0.0)
         self._force = self._lag = 0.0
         self._stalled, self._settled = False, True
         self._cause: str | None = None
@@ -87,40 +86,43 @@ class Drive:
             self._world.tell(control)
             if self._pressed and self._limiter.heed(self._forces[-1], touched=any(self._forces)):
                 self._world.give_way()
-            self._advance()
-            self._note_lag(x, y)
-            if self._ended:
+            tip_x, tip_y = self._advance()
+            lag = math.hypot(tip_x - x, tip_y - y)
+            if lag > self._lag:
+                self._note_lag(lag)
+            if self._stalled or self._cause is not None:
                 self._stalled = self._stalled and self._cause is None
                 return
         self._world.hold_joints(self._trajectory.positions[-1])
 
-    def _advance(self) -> None:
-        """One control step. The hot path."""
-        tip_x, tip_y, touching, force = self._world.advance()
-        self._tick += 1
-        self._tip = tip_x, tip_y
-        if touching:
-            self._pressed = len(self._forces)
-        if self._pressed or self._world.held is not None:
+    def _advance(self) -> tuple[float, float]:
+        """One control step, and where the fingertip then is, x and y (m). The hot path."""
+        world = self._world
+        tip_x, tip_y, touching, force = world.advance()
+        self._tick = tick = self._tick + 1
+        if touching or self._pressed or world.held is not None:
             self._feel(touching, force)
-        if self._tick % SURVEY == 0:
-            self._world.survey()
+        if tick % SURVEY == 0:
+            world.survey()
         if self._watch is not None:
             self._look()
+        return tip_x, tip_y
 
     def _feel(self, touching: float, force: float) -> None:
         """Note so many contacts of the arm and the force (N) on it, and what they are a reason to stop for."""
-        self._pressed -= self._pressed > 0 and not touching
+        if touching:
+            self._pressed = len(self._forces)
+        elif self._pressed:
+            self._pressed -= 1
         self._touches.look(self._tick * self._period, touching)
         self._forces.append(force)
         self._force = max(self._force, sum(self._forces) / len(self._forces))
         if self._stop is not None and self._cause is None:
             self._cause = self._reason(self._stop)
 
-    def _note_lag(self, x: float, y: float) -> None:
-        """See how far the fingertip is from where it is meant to be."""
-        lag = math.hypot(self._tip[0] - x, self._tip[1] - y)
-        self._lag = max(self._lag, lag)
+    def _note_lag(self, lag: float) -> None:
+        """Note how far at most the fingertip has been from where it is meant to be."""
+        self._lag = lag
         self._stalled = self._stalled or lag > self._stall_lag
 
     def _reason(self, stop: Stop) -> str | None:
