@@ -117,8 +117,9 @@ class Drive:
         self._touches.look(self._tick * self._period, touching)
         self._forces.append(force)
         self._force = max(self._force, sum(self._forces) / len(self._forces))
-        if self._stop is not None and self._cause is None:
-            self._cause = self._reason(self._stop)
+        stop = self._stop
+        if stop is not None and self._cause is None and (stop.force is not None or self._touches.any_news):
+            self._cause = self._reason(stop)
 
     def _note_lag(self, lag: float) -> None:
         """Note how far at most the fingertip has been from where it is meant to be."""

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
-from phframe.backends.joint_world import JointWorld, Pair
-from phframe.core import FloatArray
+from phframe.backends.joint_world import JointWorld, Pair, Vector
 
 OPPOSED = -0.7
 """Two fingers hold what they press from opposite sides: the cosine between their pushes is below this."""
@@ -47,6 +46,11 @@ class Touches:
         """Write down again what is touched already, as a new phase begins."""
         self._known, self._count = set(), 0.0
 
+    @property
+    def any_news(self) -> bool:
+        """Whether anything was found since ``news`` was last asked."""
+        return len(self.found) > self._told
+
     def news(self) -> list[Touch]:
         """What was found since this was last asked."""
         told, self._told = self._told, len(self.found)
@@ -76,13 +80,15 @@ class Touches:
 
     def _gripped(self) -> int | None:
         """Row of the object that both fingers press from opposite sides, if there is one."""
-        pushes: dict[int, dict[int, FloatArray]] = {}
-        for row, finger, push in self._world.pushes():
+        pushes: dict[int, dict[int, Vector]] = {}
+        for row, finger, (x, y, z) in self._world.pushes():
             fingers = pushes.setdefault(row, {})
-            fingers[finger] = fingers.get(finger, 0.0) + push
+            fx, fy, fz = fingers.get(finger, (0.0, 0.0, 0.0))
+            fingers[finger] = fx + x, fy + y, fz + z
         held = (row for row, fingers in pushes.items() if len(fingers) == 2 and _opposed(*fingers.values()))
         return next(held, None)
 
 
-def _opposed(one: FloatArray, other: FloatArray) -> bool:
-    return float(one @ other) < OPPOSED * float(np.linalg.norm(one) * np.linalg.norm(other))
+def _opposed(one: Vector, other: Vector) -> bool:
+    across = one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+    return across < OPPOSED * math.hypot(*one) * math.hypot(*other)

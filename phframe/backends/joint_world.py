@@ -38,6 +38,7 @@ TOP_SPEED = 20.0
 
 Pair = tuple[int, int]
 """A part of the arm and what it touches, by the engine's numbers."""
+Vector = tuple[float, float, float]
 Progress = tuple[float, float, float, float]
 """After a control step: x and y of the fingertip (m), number of contacts of the arm, net force of those on it (N)."""
 
@@ -73,6 +74,7 @@ class JointWorld(ABC):
         self.held: int | None = None
         self.parked = True
         self._closed = np.array([joint.lower for joint in arm.fingers.joints])
+        self._least = arm.shape.min_opening
 
     # What an engine tells.
 
@@ -130,8 +132,8 @@ class JointWorld(ABC):
         """The part of the arm, what it touches, whether that is a wall."""
 
     @abstractmethod
-    def pushes(self) -> Iterator[tuple[int, int, FloatArray]]:
-        """Of every contact of a finger with an object: the object's row, the finger (+1 or -1), its direction ``(3,)``."""
+    def pushes(self) -> Iterator[tuple[int, int, Vector]]:
+        """Of every contact of a finger with an object: the object's row, the finger (+1 or -1), its direction."""
 
     # What an engine does.
 
@@ -181,12 +183,12 @@ class JointWorld(ABC):
     @property
     def opening(self) -> float:
         """Distance between the fingers (m)."""
-        return self.arm.shape.min_opening + float((self.fingers - self._closed).sum())
+        return self._least + float((self.fingers - self._closed).sum())
 
     @property
     def command(self) -> float:
         """The distance between the fingers that they are told to have (m)."""
-        return self.arm.shape.min_opening + float((self.told_fingers - self._closed).sum())
+        return self._least + float((self.told_fingers - self._closed).sum())
 
     @property
     def speeds(self) -> FloatArray:
@@ -198,7 +200,7 @@ class JointWorld(ABC):
 
     def finger_values(self, openings: ArrayLike) -> FloatArray:
         """What the two finger joints are ``(..., 2)`` at openings ``(...)`` (m)."""
-        travel = (np.asarray(openings) - self.arm.shape.min_opening) / 2.0
+        travel = (np.asarray(openings) - self._least) / 2.0
         return np.asarray(self._closed + travel[..., None])
 
     def restore(self, state: State) -> None:

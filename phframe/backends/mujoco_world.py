@@ -11,7 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from phframe.backends.joint_world import TOP_SPEED, JointWorld, Pair, Progress
+from phframe.backends.joint_world import TOP_SPEED, JointWorld, Pair, Progress, Vector
 from phframe.backends.mujoco_model import Model
 from phframe.backends.mujoco_shelf import BOX, PLANE
 from phframe.backends.mujoco_warnings import caught_warnings
@@ -104,14 +104,13 @@ class World(JointWorld):
         part, thing = pair
         return self.model.names[part], self.model.names[thing], self.model.is_wall[thing]
 
-    def pushes(self) -> Iterator[tuple[int, int, FloatArray]]:
+    def pushes(self) -> Iterator[tuple[int, int, Vector]]:
         """Of every contact of a finger with an object: the object's row, the finger, its direction."""
         contact, sides, rows = self.data.contact, self.model.sides, self.model.rows
-        for index, (one, other) in enumerate(contact.geom.tolist()):
-            for finger, thing, sign in ((one, other, 1.0), (other, one, -1.0)):
-                row = rows[thing]
-                if sides[finger] and row is not None:
-                    yield row, sides[finger], sign * contact.frame[index, :3]
+        for (one, other), (x, y, z) in zip(contact.geom.tolist(), contact.frame[:, :3].tolist(), strict=True):
+            side, row = sides[one] or sides[other], rows[other] if sides[one] else rows[one]
+            if side and row is not None:
+                yield row, side, (x, y, z) if sides[one] else (-x, -y, -z)
 
     def controls(self, positions: FloatArray, velocities: FloatArray, fingers: FloatArray) -> list[Any]:
         """Joint values, leading where joints move, then the two fingers ``(dof + 2,)``, of ``k`` control steps."""

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from phframe.backends.joint_world import JointWorld, Pair, Progress
+from phframe.backends.joint_world import JointWorld, Pair, Progress, Vector
 from phframe.backends.pybullet_arm import LoadedArm, load_arm
 from phframe.backends.pybullet_bodies import Surfaces
 from phframe.backends.pybullet_joints import inertias, place_joints, sags, weight
@@ -166,13 +166,14 @@ class World(JointWorld):
         link, body = pair
         return self._loaded.parts[link], self._bodies.names[body], body in self._bodies.walls
 
-    def pushes(self) -> Iterator[tuple[int, int, FloatArray]]:
+    def pushes(self) -> Iterator[tuple[int, int, Vector]]:
         """Of every contact of a finger with an object: the object's row, the finger, its direction."""
         sides, rows = self._loaded.sides, self._bodies.rows
         for point in self._points:
             link, body = point[3], point[2]
             if link in sides and body in rows:
-                yield rows[body], sides[link], -np.array(point[7])
+                x, y, z = point[7]
+                yield rows[body], sides[link], (-x, -y, -z)
 
     def controls(self, positions: FloatArray, velocities: FloatArray, fingers: FloatArray) -> list[Any]:
         """Where arm and fingers are to be after each step ``(dof + 2,)``, and how fast, of ``k`` control steps."""
