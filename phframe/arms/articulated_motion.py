@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from phframe.arms.coal_ import CollisionModel
 from phframe.arms.follow import Follower
 from phframe.arms.joint_path import joint_path, require_planner
 from phframe.arms.posture import Posture
-from phframe.arms.route import Router
+from phframe.arms.route import OUTSIDE, Router
 from phframe.arms.route_search import RouteSearch
 from phframe.arms.schedule import Scheduler
 from phframe.arms.skin import Skin
@@ -19,11 +20,13 @@ from phframe.arms.stretch import free_way, legs_of
 from phframe.arms.track import Tracker
 from phframe.arms.waypoints import waypoints
 from phframe.core import (
+    Contacts,
     FloatArray,
     GripperPath,
     JointTrajectory,
     MotionPlanner,
     Mount,
+    PhaseRule,
     Scene,
     State,
     Unreachable,
@@ -41,6 +44,7 @@ SAME_POSITION, SAME_YAW = 5e-3, 0.03
 RESOLUTION = 0.03
 """Most that a joint moves between two configurations of a free way that are looked at (rad or m)."""
 
+NOWHERE = Unreachable(0.0, "the arm's joints cannot have the gripper where it is said to be", 0)
 UNAPPROACHABLE = Unreachable(0.0, "no free way leads to where the path goes in", 0)
 
 
@@ -74,32 +78,45 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
         """Lift a path; ``seconds`` play no part, so that the same inputs give the same bits."""
-        self._tracker.place(state)
         begin, opening = self._where(state)
+        if begin is None:
+            return NOWHERE
+        self._tracker.place(state)
         router = Router(path, waypoints(path), self._tracker)
-        if self._goes_on(begin, path):
-            route = router.onwards(begin)
-            if isinstance(route, Unreachable):
-                return route
-            return self._scheduler.trajectory([*legs_of(route, path, opening)])
+        found = self._onwards(path, router, begin, opening) if self._goes_on(begin, path) else None
+        if isinstance(found, JointTrajectory) or (found is not None and path.poses[0, 0] > OUTSIDE):
+            return found
         return self._approached(path, router, begin, opening, attempts, rng)
 
-    def _where(self, state: State) -> tuple[FloatArray, float]:
-        """Joint values ``(dof,)`` and commanded opening (m)."""
+    def _where(self, state: State) -> tuple[FloatArray | None, float]:
+        """Joint values ``(dof,)``, None where none are known, and commanded opening (m)."""
         if state.arm is None:
             return self.arm.home, self.arm.shape.min_opening
         joints = state.arm.joints
         if joints is None:
-            found = self.arm.inverse(self._in_base(state.arm.gripper), self.arm.home)
-            joints = self.arm.home if found is None else found
+            joints = self.arm.inverse(self._in_base(state.arm.gripper), self.arm.home)
         return joints, state.arm.commanded_opening
+
+    def _onwards(
+        self, path: GripperPath, router: Router, begin: FloatArray, opening: float
+    ) -> JointTrajectory | Unreachable:
+        """The path from where the arm is; what it touches there, it may touch until it has got away."""
+        self._tracker.permit(path.rules[path.phases[0]])
+        with self._collisions.tolerating(begin):
+            route = router.onwards(begin, self._seen(begin))
+        if isinstance(route, Unreachable):
+            return route
+        return self._scheduler.trajectory([*legs_of(route, path, opening)])
+
+    def _seen(self, q: FloatArray) -> FloatArray:
+        """The gripper's pose seen from above ``(3,)`` at joint values ``(dof,)``."""
+        pose = compose(self.mount.pose, self.arm.forward(q))
+        return np.array([pose[0], pose[1], yaw_of(pose)])
 
     def _goes_on(self, begin: FloatArray, path: GripperPath) -> bool:
         """Whether a path begins where the gripper is."""
-        pose = compose(self.mount.pose, self.arm.forward(begin))
-        x, y, yaw = path.poses[0].tolist()
-        near = np.hypot(pose[0] - x, pose[1] - y) < SAME_POSITION
-        return bool(near and abs(np.remainder(yaw_of(pose) - yaw + np.pi, 2.0 * np.pi) - np.pi) < SAME_YAW)
+        x, y, yaw = (self._seen(begin) - path.poses[0]).tolist()
+        return math.hypot(x, y) < SAME_POSITION and abs(math.remainder(yaw, math.tau)) < SAME_YAW
 
     def _approached(
         self,
@@ -115,22 +132,24 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         seeds = [*(np.array(posture) for posture in self._described.postures), begin, self.arm.home]
         approached = True
         for route in search.routes(seeds, attempts, rng):
-            way = self._free_way(begin, route.joints[0], rng)
+            first = path.rules[path.phases[int(route.legs[0])]].opening
+            way = self._free_way(begin, route.joints[0], max(opening, first), rng)
             if way is not None:
-                first = path.rules[path.phases[0]].opening
                 return self._scheduler.trajectory([*free_way(way, opening, first), *legs_of(route, path, first)])
             approached = False
         return search.farthest if approached else UNAPPROACHABLE
 
-    def _free_way(self, begin: FloatArray, end: FloatArray, rng: np.random.Generator) -> FloatArray | None:
-        """Corners ``(k, dof)`` of a way on which nothing is touched but what is touched at its begin."""
-        self._collisions.allow([])
+    def _free_way(
+        self, begin: FloatArray, end: FloatArray, opening: float, rng: np.random.Generator
+    ) -> FloatArray | None:
+        """Corners ``(k, dof)`` of a way on which nothing is touched but what is touched where it begins."""
+        self._tracker.permit(PhaseRule(1.0, opening, Contacts.NONE))
         with self._collisions.tolerating(begin):
             return joint_path(
                 begin,
                 end[None],
-                lower=self._kinematics.lower,
-                upper=self._kinematics.upper,
+                lower=np.minimum(self._kinematics.lower, begin),  # a controller may have gone a little too far
+                upper=np.maximum(self._kinematics.upper, begin),
                 valid=self._collisions.is_free,
                 planner=self.options.motion_planner,
                 resolution=RESOLUTION,

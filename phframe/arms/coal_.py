@@ -19,6 +19,8 @@ WALL_MARGIN = 0.0015
 """Kept between the robot and the shelf (m)."""
 OBJECT_MARGIN = 0.001
 """Kept between the robot and objects that it must not touch (m)."""
+YIELDING = 5e-4
+"""By how much what touches at the beginning may come nearer still (m)."""
 
 
 class CollisionModel:
@@ -57,6 +59,7 @@ class CollisionModel:
         self._scene, self._base = scene, placement(mount)
         self._links = [_link_of(self._model, item) for item in self._geometry.geometryObjects]
         self._shelf, self._objects = self._add_surroundings()
+        self._fingers = frozenset(self._model.getJointId(name) for name in fingers)
         self._pair_up({frozenset(pair) for pair in overlapping})
         self._checks = self._geometry.createData()
         self._set_margins()
@@ -87,15 +90,16 @@ class CollisionModel:
 
     @contextmanager
     def tolerating(self, q: FloatArray) -> Iterator[None]:
-        """Lets what touches at joint values ``(dof,)`` touch in this block: whoever begins there must get away."""
-        touching = [index for index, _ in self._touching(q)]
-        for index in touching:
-            self._checks.activeCollisionPairs[index] = False
+        """Lets what touches at joint values ``(dof,)`` touch in this block, no deeper: whoever begins there must get away."""
+        requests = self._checks.collisionRequests
+        before = {index: requests[index].security_margin for index, _ in self._touching(q)}
+        for index, margin in before.items():
+            requests[index].security_margin = min(margin, self._gap(index) - YIELDING)
         try:
             yield
         finally:
-            for index in touching:
-                self._checks.activeCollisionPairs[index] = True
+            for index, margin in before.items():
+                requests[index].security_margin = margin
 
     def is_free(self, q: FloatArray) -> bool:
         """Whether the robot touches nothing at joint values ``(dof,)``."""
@@ -111,6 +115,10 @@ class CollisionModel:
         active, results = self._checks.activeCollisionPairs, self._checks.collisionResults
         pairs = enumerate(self._geometry.collisionPairs)
         return [(index, pair) for index, pair in pairs if active[index] and results[index].isCollision()]
+
+    def _gap(self, index: int) -> float:
+        """Distance between what may collide, as last looked at (m); how deep it collides, if below 0."""
+        return float(pinocchio.computeDistance(self._geometry, self._checks, index).min_distance)
 
     def _all(self, q: FloatArray) -> FloatArray:
         self._values[self._rows] = q
@@ -149,10 +157,10 @@ class CollisionModel:
             geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
 
     def _may_meet(self, first: int, second: int) -> bool:
-        """Whether two covers move against one another and do not belong to links joined to one another."""
+        """Whether two covers move against one another and belong neither to joined links nor to the two fingers."""
         a, b = (self._geometry.geometryObjects[number].parentJoint for number in (first, second))
         parents = self._model.parents
-        return bool(a != b and parents[a] != b and parents[b] != a)
+        return bool(a != b and parents[a] != b and parents[b] != a and not self._fingers >= {a, b})
 
     def _set_margins(self) -> None:
         for index, pair in enumerate(self._geometry.collisionPairs):

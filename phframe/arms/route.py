@@ -59,6 +59,10 @@ class Router:
         """A pose of the path ``(3,)``: x, y, yaw."""
         return np.asarray(self._line.poses[row])
 
+    def permit(self, row: int) -> None:
+        """Let happen what may at a pose of the path."""
+        self._tracker.permit(self._rule(int(self._line.legs[row])))
+
     def through(self, q: FloatArray, anchor: int, yaw: float, stride: int) -> Route | Unreachable:
         """The route that has given joint values at one of its poses.
 
@@ -69,9 +73,13 @@ class Router:
             stride: Every how many of the poses is looked at.
         """
         line = self._line.turned(yaw)
+        self.permit(anchor)
         turned = self._tracker.turned(q, line.poses[anchor], yaw)
         if turned is None:
             return Unreachable(0.0, f"out of reach turned by {np.degrees(yaw):.0f} degrees", 0)
+        begin = self._tracker.look(turned)
+        if not begin.complete:
+            return self._unreachable(begin, anchor)
         onwards = self._onwards(line, turned, anchor, stride)
         if isinstance(onwards, Unreachable):
             return onwards
@@ -84,14 +92,14 @@ class Router:
             np.concatenate([back.legs[::-1], line.legs[anchor : anchor + 1], onwards.legs]),
         )
 
-    def onwards(self, q: FloatArray) -> Route | Unreachable:
-        """The route that begins with joint values ``(dof,)`` at, or close to, the path's first pose."""
+    def onwards(self, q: FloatArray, here: FloatArray) -> Route | Unreachable:
+        """The route that begins with joint values ``(dof,)``, whose pose ``(3,)`` is close to the path's first."""
         route = self._onwards(self._line, q, 0, 1)
         if isinstance(route, Unreachable):
             return route
         return Route(
             np.vstack([q[None], route.joints]),
-            np.vstack([self._line.poses[:1], route.poses]),
+            np.vstack([here[None], route.poses]),
             np.concatenate([self._line.legs[:1], route.legs]),
         )
 
@@ -110,7 +118,7 @@ class Router:
             rows.append(looked_at[: len(track.joints)])
             q = track.joints[-1] if len(track.joints) else q
             if not track.complete:
-                if not self._is_out(track, leg, stride):
+                if stretch[0] <= self._last or not self._is_out(track, leg, stride):
                     return self._unreachable(track, int(looked_at[len(track.joints)]))
                 break
         return self._joined(tracks, rows, len(q))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import cycle, islice
 
 import numpy as np
@@ -86,19 +86,25 @@ class RouteSearch:
         return max(endings, key=lambda ending: ending.where, default=none)
 
     def _made(self, trials: Iterable[Trial]) -> Iterator[Route]:
-        """The routes of trials that get through, up to the first that is narrow; the narrowest first."""
-        through: list[Trial] = []
+        """The routes of trials that get through: narrow ones as they come, then the others, the narrowest first."""
+        others: list[Trial] = []
         for trial in trials:
             if trial.ending is not None:
                 self._failed.append(trial)
-                continue
-            through.append(trial)
-            if trial.excess <= WIDE:
-                break
-        for trial in sorted(through, key=lambda one: one.excess):
-            route = self._router.through(trial.posture, trial.row, trial.yaw, 1)
-            if isinstance(route, Route):
-                yield route
+            elif trial.excess <= WIDE:
+                yield from self._made_of(trial)
+            else:
+                others.append(trial)
+        for trial in sorted(others, key=lambda one: one.excess):
+            yield from self._made_of(trial)
+
+    def _made_of(self, trial: Trial) -> Iterator[Route]:
+        """The route of a trial that gets through roughly, if it does so closely looked at."""
+        route = self._router.through(trial.posture, trial.row, trial.yaw, 1)
+        if isinstance(route, Route):
+            yield route
+        else:
+            self._failed.append(replace(trial, ending=route))
 
     def _tried(self, trials: Iterable[Trial]) -> Iterator[Trial]:
         """How far trials lead, roughly."""
@@ -132,6 +138,7 @@ class RouteSearch:
             if q is None or any(at == row and float(np.abs(q - other).max()) < ALIKE for other, at in found):
                 continue
             found.append((q, row))
+            self._router.permit(row)
             improved = self._follower.improved(q, self._tracker.target(pose), pose, IMPROVEMENTS)
             if improved is not None:
                 yield Trial(improved, row)

@@ -105,13 +105,16 @@ class Tracker:
             found = self._follower.next(q, drift, self.target(pose), pose, stride)
             if found is None:
                 return _track(q, joints, done, self._out_of_reach(q))
-            if not self._collisions.is_free(found[0]):
-                link, body = self._collisions.collisions(found[0])[0]
-                return _track(q, joints, done, f"{link} meets {body}", (body,))
+            if why := self._in_the_way(found[0]):
+                return _track(q, joints, done, *why)
             q, drift = found
             joints.append(q)
             done.append(pose)
         return _track(q, joints, done, "")
+
+    def look(self, q: FloatArray) -> Track:
+        """No poses from joint values ``(dof,)``; complete if nothing is in the way where they are."""
+        return _track(q, [], [], *(self._in_the_way(q) or ("",)))
 
     def turned(self, q: FloatArray, pose: FloatArray, yaw: float) -> FloatArray | None:
         """Joint values ``(dof,)`` for a pose ``(3,)`` from those for the same, turned back by a yaw (rad), or None."""
@@ -142,6 +145,13 @@ class Tracker:
                 break
         assert longest is not None
         return longest
+
+    def _in_the_way(self, q: FloatArray) -> tuple[str, tuple[str, ...]] | None:
+        """What is hit at joint values ``(dof,)``, in words and by name."""
+        if self._collisions.is_free(q):
+            return None
+        link, body = self._collisions.collisions(q)[0]
+        return f"{link} meets {body}", (body,)
 
     def _out_of_reach(self, q: FloatArray) -> str:
         at = [self._names[row] for row in self._follower.joints_at_limits(q)]
