@@ -54,6 +54,7 @@ class CollisionModel:
             np.array([self._model.idx_qs[self._model.getJointId(name)] for name in names])
             for names in (joints, fingers)
         )
+        self._gripper = {self._model.getJointId(name) for name in fingers}
         self._scene, self._base = scene, placement(mount)
         self._links = [_link_of(self._model, item) for item in self._geometry.geometryObjects]
         self._shelf, self._objects = self._add_surroundings()
@@ -149,10 +150,10 @@ class CollisionModel:
             geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
 
     def _may_meet(self, first: int, second: int) -> bool:
-        """Whether two covers move against one another and do not belong to links joined to one another."""
+        """Whether two covers move against one another, of links not joined to one another; closed fingers touch anyway."""
         a, b = (self._geometry.geometryObjects[number].parentJoint for number in (first, second))
         parents = self._model.parents
-        return bool(a != b and parents[a] != b and parents[b] != a)
+        return bool(a != b and parents[a] != b and parents[b] != a and {a, b} != self._gripper)
 
     def _set_margins(self) -> None:
         for index, pair in enumerate(self._geometry.collisionPairs):
