@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from phframe.arms.articulated_options import ArticulatedOptions
 from phframe.arms.description import ArmDescription, Section, TipFrame, read_description
+from phframe.arms.description_check import check_description
 from phframe.arms.outlines import gripper_outlines
 from phframe.arms.pinocchio_ import Kinematics
 from phframe.arms.reach import share_served
@@ -28,6 +29,7 @@ from phframe.core import (
     Joint,
     MotionPlanner,
     Mount,
+    NotInstalledError,
     Outline,
     Scene,
     Shelf,
@@ -126,9 +128,19 @@ class ArticulatedArm(ArmModel[OptionsT]):
 
         Raises:
             UnknownNameError: If there is no such planner.
-            NotInstalledError: If OMPL is not installed.
+            NotInstalledError: If OMPL or TOPP-RA is not installed.
+            ArmError: If covers are meshes.
         """
-        from phframe.arms.articulated_motion import ArticulatedMotionPlanner
+        if self.robot.meshes:
+            raise ArmError(
+                f"the collision shape of link {self.robot.meshes[0]!r} in the URDF is a mesh: to be moved by its joints, "
+                "an arm needs boxes, cylinders or spheres instead"
+            )
+        try:
+            from phframe.arms.articulated_motion import ArticulatedMotionPlanner
+        except ModuleNotFoundError as error:
+            library = str(error.name).partition(".")[0]
+            raise NotInstalledError("motion of an arm's joints", library, 'pip install "phframe[baxter]"') from error
 
         return ArticulatedMotionPlanner(scene, self, mount, self.options)
 
@@ -149,17 +161,7 @@ class ArticulatedArm(ArmModel[OptionsT]):
         description, text = self.describe()
         robot = read_robot(text)
         text = _with_tip(text, robot, description.tip)
-        limits = [_joint(robot, name) for name in description.joints]
-        if len(description.home) != len(limits):
-            raise ArmError(f"home has {len(description.home)} values for {len(limits)} joints")
-        for joint, value in zip(limits, description.home, strict=True):
-            if not joint.lower <= value <= joint.upper:
-                raise ArmError(
-                    f"at home {joint.name} is {value:g}, beyond its limits {joint.lower:g} to {joint.upper:g}"
-                )
-        for name in description.fingers:
-            if robot.joint(name).kind != "prismatic":
-                raise ArmError(f"the finger joint {name!r} turns; fingers that slide are needed")
+        check_description(description, robot)
         return description, text
 
     @cached_property

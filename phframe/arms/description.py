@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, field_validator
 
 from phframe.core import InputError
 
@@ -66,6 +66,14 @@ class Section(_Part):
     bottom: float
     top: float
 
+    @field_validator("widths")
+    @classmethod
+    def _from_near_to_far(cls, widths: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+        distances = [distance for distance, _ in widths]
+        if len(widths) < 2 or distances != sorted(distances):
+            raise ValueError("at least two pairs of distance and half-width are needed, the nearest first")
+        return widths
+
 
 class ArmDescription(_Part):
     """An arm besides its URDF.
@@ -113,6 +121,8 @@ def read_description(path: Path) -> tuple[ArmDescription, str]:
 
     try:
         content = YAML(typ="safe", pure=True).load(_text(path))
+        if not isinstance(content, dict):
+            raise InputError(f"{path}: a description is a list of keys and values, as in 'height: 0.1'")
         description = ArmDescription.model_validate(content)
     except YAMLError as error:
         raise InputError(f"{path}: not valid YAML: {' '.join(str(error).split())}") from None
@@ -134,4 +144,5 @@ def _text(path: Path) -> str:
 
 def _sentence(error: Any) -> str:
     where = ".".join(str(step) for step in error["loc"]) or "the file"
-    return f"{where}: {error['msg'][:1].lower()}{error['msg'][1:]}"
+    message = error["msg"].removeprefix("Value error, ")
+    return f"{where}: {message[:1].lower()}{message[1:]}"

@@ -24,10 +24,12 @@ class Robot:
     Attributes:
         covers: Solids that collide, by link.
         connections: What each link but the root hangs on, by that link.
+        meshes: Links among whose covers is a mesh, of which nothing can be said.
     """
 
     covers: Mapping[str, tuple[Solid, ...]]
     connections: Mapping[str, Connection]
+    meshes: tuple[str, ...] = ()
 
     def joint(self, name: str) -> Connection:
         """The connection whose joint bears a name.
@@ -55,7 +57,10 @@ def read_robot(text: str) -> Robot:
         raise ArmError(f"the URDF begins with <{root.tag}>, not with <robot>")
     covers = {_attribute(link, "name", "a link"): _covers(link) for link in root.findall("link")}
     connections = [_connection(joint) for joint in root.findall("joint")]
-    robot = Robot(covers, {connection.child: connection for connection in connections})
+    meshes = tuple(
+        link.get("name", "") for link in root.findall("link") if link.find("collision/geometry/mesh") is not None
+    )
+    robot = Robot(covers, {connection.child: connection for connection in connections}, meshes)
     _check_tree(robot, connections)
     return robot
 

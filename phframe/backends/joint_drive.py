@@ -17,7 +17,9 @@ SURVEY = 10
 CALM_CHECK = 5
 """Control steps between looks at whether all is at rest."""
 YIELDING = 0.1
-"""For this long (s) a stopped arm gives way to what presses on it, so that it stands with no preload."""
+"""For at least this long (s) a stopped arm gives way to what presses on it, so that it stands with no preload."""
+LONGEST_YIELDING, YIELDED = 0.5, 3.0
+"""A slow, heavy one does so for up to so long (s), until it is pressed by no more than this (N)."""
 
 
 class Drive:
@@ -137,7 +139,10 @@ class Drive:
 
     def _yield(self) -> None:
         """Let what presses on the arm push it back, and stand where it then is."""
-        for _ in range(round(YIELDING / self._period)):
+        least, most = (round(time / self._period) for time in (YIELDING, LONGEST_YIELDING))
+        for tick in range(most):
+            if tick >= least and self._forces[-1] <= YIELDED:
+                break
             self._world.give_way()
             self._advance()
         self._world.hold_joints(self._world.joints)

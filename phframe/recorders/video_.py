@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from phframe.core import Episode, Scene, Setup, State, Step
+from phframe.core import Episode, NotInstalledError, Scene, Setup, State, Step
 from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.coloring import components_of
 from phframe.recorders.film import Film, format_of, refuse_unwritable
@@ -32,13 +32,17 @@ class VideoRecorder(Observer):
 
     Raises:
         InputError: If the file cannot be written, or nothing here can draw.
+        NotInstalledError: If MuJoCo is not installed.
     """
 
     def __init__(self, path: Path) -> None:
         self.path, self._kind = path, format_of(path)
         refuse_unwritable(path)
         find_opengl()  # before mujoco is imported: it wants what the environment asks for
-        from phframe.recorders.offscreen import require_drawing
+        try:
+            from phframe.recorders.offscreen import require_drawing
+        except ModuleNotFoundError as error:
+            raise NotInstalledError("recorder 'video'", str(error.name), 'pip install "phframe[video]"') from error
 
         require_drawing()
         self._shooting: _Shooting | None = None

@@ -43,7 +43,7 @@ FRAME_PERIOD = 1.0 / 30.0
 """Of the world's time, between the moments that observers are shown (s)."""
 
 MOST_REJECTED = 20
-"""After so many actions that the arm could not do, or that came to nothing, an episode is given up."""
+"""Actions that the arm could not do, or that came to nothing, for which others are sought without counting that as a replan."""
 
 
 def run_episode(
@@ -139,9 +139,8 @@ class _Run:
 
     @property
     def _exhausted(self) -> bool:
-        """Whether there were enough replans; one for an action that the arm could not do is no replan."""
-        carried_out = {step.plan for step in self._steps}
-        return len(carried_out) > self._loop.max_replans or len(self._rejected) >= MOST_REJECTED
+        """Whether there were enough replans; one that only stands in for what the arm could not do is excused."""
+        return len(self._plans) - min(len(self._rejected), MOST_REJECTED) > self._loop.max_replans
 
     def _plan(self) -> Plan:
         """Ask the planner, with what is left of the time."""

@@ -14,7 +14,18 @@ pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
 from phframe.arms.articulated import DescribedArm, DescribedArmOptions
 from phframe.arms.robot import Connection, Link, robot_urdf
 from phframe.arms.solids import Solid, of_solids
-from phframe.core import ArmError, InputError, Joint, Mount, Shelf, compose, planar_pose
+from phframe.core import (
+    ArmError,
+    Cylinder,
+    InputError,
+    Joint,
+    Mount,
+    Scene,
+    SceneObject,
+    Shelf,
+    compose,
+    planar_pose,
+)
 
 pytestmark = pytest.mark.needs_baxter
 
@@ -158,6 +169,34 @@ def test_the_example_is_an_arm_that_solves_a_scene() -> None:
 
     example = DescribedArm(DescribedArmOptions())
     tip = compose(example.default_mount(SHELF).pose, example.forward(example.home))
-    np.testing.assert_allclose(tip, planar_pose(-0.04, SHELF.width / 2.0, 0.08), atol=1e-5)
+    np.testing.assert_allclose(tip, planar_pose(-0.1, SHELF.width / 2.0, 0.08), atol=1e-5)
     episode = phframe.solve("vieira/simple-01", arm="articulated")
     assert episode.status == "retrieved"
+
+
+@pytest.mark.needs_mujoco
+@pytest.mark.needs_ompl
+def test_the_example_solves_a_scene_by_its_joints() -> None:
+    for library in ("mujoco", "ompl", "toppra"):
+        pytest.importorskip(library)
+    import phframe
+
+    episode = phframe.solve("vieira/simple-07", backend="mujoco", arm="articulated")
+    assert (episode.status, episode.clean, episode.pushes) == ("retrieved", True, 1)
+    assert all(step.motion.complete and step.motion.tracking_error < 0.01 for step in episode.steps)
+
+
+@pytest.mark.needs_ompl
+def test_closed_fingers_may_touch_one_another() -> None:
+    pytest.importorskip("ompl")
+    from phframe.arms.coal_ import CollisionModel
+
+    example = DescribedArm(DescribedArmOptions())
+    names, fingers = example.description.joints, example.description.fingers
+    scene = Scene("shelf", SHELF, (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
+    model = CollisionModel(example.urdf(), names, fingers, (), scene, example.default_mount(SHELF))
+    model.place(scene.initial_state())
+    model.open(np.zeros(2))
+    assert model.collisions(example.home) == ()
+    folded = np.array([0.0, 0.5, 2.6, 0.0, 0.0, 0.0])
+    assert ("base", "forearm") in model.collisions(folded), "whatever else meets does collide"
