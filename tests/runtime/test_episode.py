@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from phframe.core import Condition, Episode, Loop, Phase, Status
+from phframe.runtime.episode import MOST_REJECTED
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.solve import solve
