@@ -26,6 +26,8 @@ LONGEST_STEP = 0.2
 STIFFNESS = 1e-6
 """Keeps the posture where nothing is gained by changing it."""
 
+LIMIT_ROOM = 0.01
+"""Kept from the joints' limits (rad or m), for the curves between poses to bend in."""
 DAMPING = 1e-9
 """Where joints can hardly make up for an error, or not at all."""
 
@@ -43,6 +45,8 @@ class Follower:
 
     def __init__(self, kinematics: Kinematics, posture: Posture) -> None:
         self._kinematics, self.posture = kinematics, posture
+        room = np.minimum(LIMIT_ROOM, (kinematics.upper - kinematics.lower) / 4.0)
+        self._lower, self._upper = kinematics.lower + room, kinematics.upper - room
 
     def next(
         self, q: FloatArray, drift: FloatArray, target: Any, gripper: FloatArray, stride: int = 1
@@ -83,20 +87,18 @@ class Follower:
 
     def joints_at_limits(self, q: FloatArray) -> Sequence[int]:
         """Numbers of the joints that stand at a limit."""
-        lower, upper = self._kinematics.lower, self._kinematics.upper
-        at = (q <= lower + 1e-6) | (q >= upper - 1e-6)
+        at = (q <= self._lower + 1e-6) | (q >= self._upper - 1e-6)
         return [int(row) for row in np.flatnonzero(at)]
 
     def _moved(self, q: FloatArray, move: FloatArray, jacobian: FloatArray, error: FloatArray) -> FloatArray:
         """After a move; joints that would leave their limits stop there, and the others do their work."""
-        lower, upper = self._kinematics.lower, self._kinematics.upper
-        to = np.clip(q + move, lower, upper)
+        to = np.clip(q + move, self._lower, self._upper)
         stopped = to != q + move
         if not stopped.any():
             return to
         kept = np.where(stopped, to - q, 0.0)
         kept = kept + _smallest(np.where(stopped, 0.0, jacobian), error - jacobian @ kept)
-        return np.asarray(np.clip(q + kept, lower, upper))
+        return np.asarray(np.clip(q + kept, self._lower, self._upper))
 
     def _drift(
         self, q: FloatArray, drift: FloatArray, jacobian: FloatArray, gripper: FloatArray, stride: int
