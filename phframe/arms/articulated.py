@@ -28,6 +28,7 @@ from phframe.core import (
     Joint,
     MotionPlanner,
     Mount,
+    NotInstalledError,
     Outline,
     Scene,
     Shelf,
@@ -126,9 +127,16 @@ class ArticulatedArm(ArmModel[OptionsT]):
 
         Raises:
             UnknownNameError: If there is no such planner.
-            NotInstalledError: If OMPL is not installed.
+            NotInstalledError: If OMPL or TOPP-RA is not installed.
         """
-        from phframe.arms.articulated_motion import ArticulatedMotionPlanner
+        try:
+            from phframe.arms.articulated_motion import ArticulatedMotionPlanner
+        except ModuleNotFoundError as error:
+            library = (error.name or "phframe").partition(".")[0]
+            if library == "phframe":
+                raise
+            remedy = 'pip install "phframe[baxter]" (no wheels for Windows)'
+            raise NotInstalledError(f"motion planning for {type(self).__name__}", library, remedy) from error
 
         return ArticulatedMotionPlanner(scene, self, mount, self.options)
 

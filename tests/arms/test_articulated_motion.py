@@ -17,7 +17,7 @@ pytest.importorskip("pinocchio")
 pytest.importorskip("ompl")
 pytest.importorskip("toppra")
 
-from phframe.arms.articulated import ArticulatedArm  # noqa: E402
+from phframe.arms.articulated import ArticulatedArm
 from phframe.arms.baxter import Baxter, BaxterOptions
 from phframe.core import (
     ArmError,
@@ -431,5 +431,16 @@ def test_without_ompl_there_is_an_install_line_before_anything_begins(monkeypatc
     monkeypatch.setitem(sys.modules, "ompl", None)
     monkeypatch.delitem(sys.modules, "ompl.base", raising=False)
     with pytest.raises(NotInstalledError, match=r"phframe\[ompl\]") as caught:
+        planner(baxter())
+    assert "\n" not in str(caught.value)
+
+
+def test_without_toppra_there_is_one_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in [name for name in sys.modules if name.partition(".")[0] == "toppra"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "toppra", None)
+    for name in ("articulated_motion", "schedule", "toppra_"):
+        monkeypatch.delitem(sys.modules, f"phframe.arms.{name}", raising=False)
+    with pytest.raises(NotInstalledError, match=r"Baxter needs toppra.*phframe\[baxter\]") as caught:
         planner(baxter())
     assert "\n" not in str(caught.value)
