@@ -139,8 +139,11 @@ class ArticulatedArm(ArmModel[OptionsT]):
         try:
             from phframe.arms.articulated_motion import ArticulatedMotionPlanner
         except ModuleNotFoundError as error:
-            library = str(error.name).partition(".")[0]
-            raise NotInstalledError("motion of an arm's joints", library, 'pip install "phframe[baxter]"') from error
+            library = (error.name or "phframe").partition(".")[0]
+            if library == "phframe":
+                raise
+            remedy = 'pip install "phframe[baxter]" (no wheels for Windows)'
+            raise NotInstalledError(f"motion planning for {type(self).__name__}", library, remedy) from error
 
         return ArticulatedMotionPlanner(scene, self, mount, self.options)
 

@@ -26,6 +26,11 @@ LONGEST_STEP = 0.2
 STIFFNESS = 1e-6
 """Keeps the posture where nothing is gained by changing it."""
 
+LIMIT_ROOM = 0.01
+"""Kept from the joints' limits (rad or m), for the curves between poses to bend in."""
+DAMPING = 1e-9
+"""Where joints can hardly make up for an error, or not at all."""
+
 
 class Follower:
     """Takes an arm from pose to pose.
@@ -40,6 +45,8 @@ class Follower:
 
     def __init__(self, kinematics: Kinematics, posture: Posture) -> None:
         self._kinematics, self.posture = kinematics, posture
+        room = np.minimum(LIMIT_ROOM, (kinematics.upper - kinematics.lower) / 4.0)
+        self._lower, self._upper = kinematics.lower + room, kinematics.upper - room
 
     def next(
         self, q: FloatArray, drift: FloatArray, target: Any, gripper: FloatArray, stride: int = 1
@@ -61,13 +68,11 @@ class Follower:
             error, jacobian = kinematics.error(q, target)
             if step and float(error @ error) < REACHED**2:
                 return (q, drift) if float(np.abs(q - begin).max()) < LONGEST_STEP * stride**0.5 else None
-            square = jacobian @ jacobian.T
-            square[np.diag_indices(6)] += 1e-9
-            move = jacobian.T @ np.linalg.solve(square, error)
+            move = _smallest(jacobian, error)
             if step == 0 and len(q) > 6:
                 drift = self._drift(q, drift, jacobian, gripper, stride)
                 move = move + stride * drift
-            q = np.clip(q + move, kinematics.lower, kinematics.upper)
+            q = self._moved(q, move, jacobian, error)
         return None
 
     def improved(self, q: FloatArray, target: Any, gripper: FloatArray, times: int) -> FloatArray | None:
@@ -82,9 +87,18 @@ class Follower:
 
     def joints_at_limits(self, q: FloatArray) -> Sequence[int]:
         """Numbers of the joints that stand at a limit."""
-        lower, upper = self._kinematics.lower, self._kinematics.upper
-        at = (q <= lower + 1e-6) | (q >= upper - 1e-6)
+        at = (q <= self._lower + 1e-6) | (q >= self._upper - 1e-6)
         return [int(row) for row in np.flatnonzero(at)]
+
+    def _moved(self, q: FloatArray, move: FloatArray, jacobian: FloatArray, error: FloatArray) -> FloatArray:
+        """After a move; joints that would leave their limits stop there, and the others do their work."""
+        to = np.clip(q + move, self._lower, self._upper)
+        stopped = to != q + move
+        if not stopped.any():
+            return to
+        kept = np.where(stopped, to - q, 0.0)
+        kept = kept + _smallest(np.where(stopped, 0.0, jacobian), error - jacobian @ kept)
+        return np.asarray(np.clip(q + kept, self._lower, self._upper))
 
     def _drift(
         self, q: FloatArray, drift: FloatArray, jacobian: FloatArray, gripper: FloatArray, stride: int
@@ -96,3 +110,10 @@ class Follower:
         last, change = float(drift @ direction), LONGEST_CHANGE * stride
         step = min(max(wanted, last - change, -LONGEST_DRIFT), last + change, LONGEST_DRIFT)
         return np.asarray(step * direction)
+
+
+def _smallest(jacobian: FloatArray, error: FloatArray) -> FloatArray:
+    """The smallest move ``(dof,)`` that makes up for an error ``(6,)``."""
+    square = jacobian @ jacobian.T
+    square[np.diag_indices(6)] += DAMPING
+    return np.asarray(jacobian.T @ np.linalg.solve(square, error))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 
 import numpy as np
@@ -79,7 +79,7 @@ class Router:
             return Unreachable(0.0, f"out of reach turned by {np.degrees(yaw):.0f} degrees", 0)
         begin = self._tracker.look(turned)
         if not begin.complete:
-            return self._unreachable(begin, anchor)
+            return replace(self._unreachable(begin, anchor), where=float(line.lengths[min(anchor, self.gate)]))
         onwards = self._onwards(line, turned, anchor, stride)
         if isinstance(onwards, Unreachable):
             return onwards

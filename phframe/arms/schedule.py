@@ -61,7 +61,12 @@ class Scheduler:
         gripper = GripperTrajectory(
             np.concatenate(times), np.column_stack([x, y, yaw]), opening, tuple(phases), self._arm.force_limit
         )
-        return JointTrajectory(gripper, values[:, :dof], speeds[:, :dof])
+        return JointTrajectory(gripper, self._within_limits(values[:, :dof]), speeds[:, :dof])
+
+    def _within_limits(self, joints: FloatArray) -> FloatArray:
+        """Joint values ``(k, dof)`` of which no curve leads beyond a limit, unless that is where it begins."""
+        lower, upper = np.array([[joint.lower, joint.upper] for joint in self._arm.joints]).T
+        return np.asarray(np.clip(joints, np.minimum(lower, joints[0]), np.maximum(upper, joints[0])))
 
     def _timed(self, stretch: Stretch) -> Timed:
         """Joints, x, y, yaw, opening and way of the fingertip over time."""

@@ -30,6 +30,7 @@ from phframe.core import (
     Unreachable,
     Watch,
 )
+from phframe.core.episode import MOVED
 from phframe.pushing.corridor import corridor_half_width, find_corridor
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.outcome import grasp_outcome, is_cleared
@@ -170,9 +171,18 @@ class _Run:
         for action, expected, decision in zip(plan.actions, plan.expected, plan.decisions, strict=True):
             if action.grasps:
                 break
-            if problem := self._step(action, expected, decision) or self._deviation(expected, action):
+            if problem := self._step(action, expected, decision):
+                return problem
+            if problem := self._deviation(expected, action):
+                self._reject_if_idle(action)
                 return problem
         return ""
+
+    def _reject_if_idle(self, action: Action) -> None:
+        """Have no action again that was to move something and moved nothing: it would go on moving nothing."""
+        step = self._steps[-1]
+        if (step.after.displacement(step.before) <= MOVED).all():
+            self._rejected = (*self._rejected, action)
 
     def _grasp(self, plan: Plan) -> tuple[Status, str]:
         """Reach, grasp and withdraw: as planned, or where the plan ends with an empty corridor, as the paper allows."""

@@ -13,11 +13,12 @@ from phframe.testing.check import Check, ConformanceError, Failure, Fault, NotAp
 from phframe.testing.physics import PHYSICS_CHECKS, check_physics
 from phframe.testing.planner import PLANNER_CHECKS, check_planner, order_of_objects_does_not_matter, simulated_tasks
 from phframe.testing.subjects import ArmUnderTest, EngineUnderTest, PhysicsUnderTest, PlannerUnderTest
-from phframe.testing.tolerances import PLANAR, SPATIAL, PhysicsTolerances
+from phframe.testing.tolerances import JOINTED, PLANAR, SPATIAL, PhysicsTolerances
 from phframe.testing.topology import TOPOLOGY_CHECKS, check_topology
 
 __all__ = [
     "ARM_CHECKS",
+    "JOINTED",
     "PHYSICS_CHECKS",
     "PLANAR",
     "PLANNER_CHECKS",

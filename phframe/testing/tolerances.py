@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +76,10 @@ SPATIAL = PhysicsTolerances(
     stands_still=3e-3,
 )
 """Of an engine in space, where contacts are soft and an arm is held by controllers."""
+
+JOINTED = replace(SPATIAL, force=1.0, preload=25.0)
+"""The same with an arm of joints, whose force is limited through their torques while links of some 10 kg move: 72 N of 40 N
+were measured where it drives an object into a wall at 0.25 m/s, and 20 N on a stalled arm that is told to stand still."""
 
 DIAGRAM = 2e-6
 """Of deaths, relative and absolute (m): engines compute with float32."""

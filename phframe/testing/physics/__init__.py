@@ -42,7 +42,7 @@ def check_physics(
     Args:
         factory: Makes a new backend, as in ``lambda scene, arm, mount: MyPhysics(scene, arm, mount, MyOptions())``.
         arm: The arm.
-        tolerances: ``PLANAR``, or ``SPATIAL`` for an engine in space.
+        tolerances: ``PLANAR``, or ``SPATIAL`` for an engine in space, ``JOINTED`` with an arm of joints.
         lift: Finds the joints for a gripper trajectory, where the backend executes those; None: straight on, by the
             arm's inverse kinematics.
         name: Of the backend, for messages.

@@ -34,7 +34,7 @@ def lift_straight(trajectory: GripperTrajectory, state: State, arm: ArmModel[Any
     It looks at no obstacle: what stands before the mouth of the test scenes is nothing.
 
     Raises:
-        InputError: If the arm cannot reach a pose.
+        InputError: If the arm cannot reach a pose, or not as fast.
     """
     start = _joints(state, arm, mount)
     times = _sample_times(trajectory)
@@ -45,6 +45,7 @@ def lift_straight(trajectory: GripperTrajectory, state: State, arm: ArmModel[Any
     lead = _lead_times(approach)
     all_times = np.concatenate([lead[:-1], times + lead[-1]])
     seen = [_seen_from_above(q, arm, mount) for q in approach[:-1]]
+    _refuse_hurry(times, joints, arm)
     openings = np.array([trajectory.at(time)[1] for time in times])
     phases = [Phase.APPROACH] * (len(approach) - 1) + [trajectory.phase_at((a + b) / 2) for a, b in pairwise(times)]
     lifted = GripperTrajectory(
@@ -63,6 +64,15 @@ def _joints(state: State, arm: ArmModel[Any], mount: Mount) -> FloatArray:
     if state.arm.joints is not None:
         return state.arm.joints
     return np.asarray(_follow(state.arm.gripper[None], np.asarray(arm.home), arm, mount)[0])
+
+
+def _refuse_hurry(times: FloatArray, joints: FloatArray, arm: ArmModel[Any]) -> None:
+    """Refuse what no joint can be as fast as."""
+    speeds = np.abs(np.diff(joints, axis=0)) / np.maximum(np.diff(times), 1e-9)[:, None]
+    fastest = speeds.max(axis=0, initial=0.0)
+    for joint, speed in zip(arm.joints, fastest.tolist(), strict=True):
+        if speed > joint.velocity:
+            raise InputError(f"{joint.name} would have to move at {speed:.2f}, and its limit is {joint.velocity:g}")
 
 
 def _sample_times(trajectory: GripperTrajectory) -> FloatArray:
