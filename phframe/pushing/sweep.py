@@ -41,8 +41,8 @@ class SweepGeometry:
     def pushes(self) -> Iterator[Push]:
         """The sweeps that fit, best first.
 
-        In each direction, the paper's before the other, the one that clears with the least tilt; then those that fit at
-        the least tilt but do not clear.
+        In each direction, the paper's before the other, the one that clears with the least tilt and rams nothing on its
+        way in; where there is none, one that clears all the same; then those that fit at the least tilt but do not clear.
         """
         direction = self._direction()
         other: Direction = -1 if direction == 1 else 1
@@ -52,7 +52,8 @@ class SweepGeometry:
             pushes = list(_until_one_clears(self._tilted(way, choices)))
             if pushes and _is_best(pushes[-1]):
                 yield pushes[-1]
-            second_best += [push for push in pushes if push.clears and push.rams][:1]
+            else:
+                second_best += [push for push in pushes if push.clears][:1]
             third_best += [push for push in pushes[:1] if not push.clears]
         yield from second_best
         for push in third_best:

@@ -53,7 +53,7 @@ def to_scene(foreign: ForeignScene, source: str, target: str | None = None, name
         wanted, why = _target(foreign, inside, target)
         objects = tuple(_object(body, place) for body in inside)
         mounts = {arm: _mount(stand, place) for arm, stand in foreign.mounts.items()}
-        scene = Scene(name or foreign.name or "imported", place.shelf, objects, wanted, mounts)
+        scene = Scene(name or " ".join(foreign.name.split()) or "imported", place.shelf, objects, wanted, mounts)
     except SceneError as error:
         raise SceneError(error.problems, source) from None
     return Imported(scene, tuple(_notes(foreign, place, inside, f"the target is {wanted!r}, {why}")))
