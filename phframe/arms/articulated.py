@@ -140,7 +140,10 @@ class ArticulatedArm(ArmModel[OptionsT]):
             from phframe.arms.articulated_motion import ArticulatedMotionPlanner
         except ModuleNotFoundError as error:
             library = str(error.name).partition(".")[0]
-            raise NotInstalledError("motion of an arm's joints", library, 'pip install "phframe[baxter]"') from error
+            wheels = " (wheels for Linux x86-64 only)" if library == "toppra" else ""
+            raise NotInstalledError(
+                "motion of an arm's joints", library, f'pip install "phframe[baxter]"{wheels}'
+            ) from error
 
         return ArticulatedMotionPlanner(scene, self, mount, self.options)
 
