@@ -1,5 +1,6 @@
 """The Makefile finds an interpreter that really runs, and says what to do when there is none."""
 
+import re
 import shutil
 import subprocess
 import sys
@@ -127,3 +128,26 @@ def test_help_lists_every_target_that_is_meant_for_people(bin_folder: Path) -> N
     )  # fmt: skip
     listed = {line.split("\t")[0].strip() for line in result.stdout.splitlines()[1:]}
     assert listed == {"help", "demo", "test", "test-3d", "lint", "bench", "clean"}
+
+
+def recipe(target: str) -> str:
+    """What `make` would run for a target."""
+    make = shutil.which("make")
+    assert make is not None
+    command = [make, "--dry-run", "--no-print-directory", "-C", str(ROOT), target]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def test_the_core_is_tested_without_the_libraries_for_3d_and_the_rest_with_all_of_them() -> None:
+    core, rest = recipe("test"), recipe("test-3d")
+    assert "-p tests.without_3d" in core
+    assert "tests.without_3d" not in rest
+    selected = [re.search(r"-m '(not \()?([a-z0-9_ ]+)\)?'", lines) for lines in (core, rest)]
+    assert selected[0] is not None
+    assert selected[1] is not None
+    assert (selected[0][1], selected[1][1]) == ("not (", None)
+    assert selected[0][2] == selected[1][2]
+    demanded = re.search(r'bin/python -c "import (av.*)"', rest)
+    assert demanded is not None
+    assert set(demanded[1].split(", ")) == {"av", "mujoco", "ompl.base", "pinocchio", "toppra", "trimesh"}
+    assert "__import__('pybullet')" in rest

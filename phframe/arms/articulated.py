@@ -142,7 +142,8 @@ class ArticulatedArm(ArmModel[OptionsT]):
             library = (error.name or "phframe").partition(".")[0]
             if library == "phframe":
                 raise
-            remedy = 'pip install "phframe[baxter]" (no wheels for Windows)'
+            wheels = "Linux x86-64 only" if library == "toppra" else "Linux and macOS"
+            remedy = f'pip install "phframe[baxter]" (wheels for {wheels})'
             raise NotInstalledError(f"motion planning for {type(self).__name__}", library, remedy) from error
 
         return ArticulatedMotionPlanner(scene, self, mount, self.options)

@@ -119,7 +119,7 @@ def test_a_run_in_mujoco_becomes_trajectories(invoke: Invoke) -> None:
         (["vieira/basic", "--out", "a.csv"], "is a scene"),
         (["vieira/basic", "--format", "urdf-parts"], "--out DIR"),
         (["vieira/basic", "--format", "urdf", "--arm", "planar"], "--arm goes with"),
-        (["vieira/basic", "--arm", "plannar"], "Did you mean 'planar'?"),
+        (["vieira/basic", "--format", "urdf-parts", "--out", "parts", "--arm", "plannar"], "Did you mean 'planar'?"),
         (["vieira/basic", "--action", "1"], "--action goes with"),
         (["vieira/basic", "--option", "margin=0.02"], "no planner here"),
         (["vieira/basic", "--option", "arm.link_width=1"], "no arm"),

@@ -62,7 +62,7 @@ UNSUITED = {
     (
         "articulated in mujoco",
         "sliding_objects_stop_where_friction_says",
-    ): "it brakes with 3 m/s^2, so its fingers are still at the object when that is let go",
+    ): "it brakes with 3 m/s^2, less than friction does: it never lets go of the object",
 }
 """What an arm cannot be checked on in space, and why; what it cannot reach, or not as fast, it says itself."""
 

@@ -1,0 +1,64 @@
+"""Makes libraries that are installed look as if they were not."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Sequence
+from importlib import metadata
+from importlib.machinery import ModuleSpec
+from typing import Any
+
+DISTRIBUTIONS = {
+    "mujoco": "mujoco",
+    "pybullet": "pybullet",
+    "ompl": "ompl",
+    "pinocchio": "pin",
+    "coal": "coal",
+    "toppra": "toppra",
+    "av": "av",
+    "trimesh": "trimesh",
+}
+"""Of the libraries for 3D, by the module that they are imported as."""
+
+
+class Without:
+    """A finder of modules and distributions that does not find some of them.
+
+    Args:
+        finder: That finds them all.
+        modules: What it is not to find; with the distributions that these come in.
+    """
+
+    def __init__(self, finder: Any, modules: Sequence[str]) -> None:
+        self._finder, self._modules = finder, frozenset(modules)
+        self._distributions = frozenset(DISTRIBUTIONS[module] for module in modules)
+
+    def find_spec(self, name: str, path: Sequence[str] | None = None, target: Any = None) -> ModuleSpec | None:
+        """None for what is hidden."""
+        if name.partition(".")[0] in self._modules:
+            return None
+        spec: ModuleSpec | None = self._finder.find_spec(name, path, target)
+        return spec
+
+    def find_distributions(self, *context: metadata.DistributionFinder.Context) -> Iterable[metadata.Distribution]:
+        """All but those that are hidden."""
+        if context and context[0].name in self._distributions:
+            return ()
+        found: Iterable[metadata.Distribution] = self._finder.find_distributions(*context)
+        return found
+
+    def invalidate_caches(self) -> None:
+        """As the finder does."""
+        self._finder.invalidate_caches()
+
+
+def hide(modules: Sequence[str]) -> None:
+    """Hide libraries from now on in this process, into which none of them has been imported.
+
+    Raises:
+        RuntimeError: If one has.
+    """
+    if loaded := sorted(set(modules) & sys.modules.keys()):
+        raise RuntimeError(f"already imported: {', '.join(loaded)}")
+    finders = [Without(each, modules) if hasattr(each, "find_distributions") else each for each in sys.meta_path]
+    sys.meta_path[:] = finders
