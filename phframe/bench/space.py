@@ -11,10 +11,12 @@ from rich.console import Console
 from rich.table import Table
 
 from phframe.bench.calibrate import BEFORE, Calibration, calibrate
+from phframe.bench.motion_planning import ARM, MotionPlanning, measure_motion_planning
 from phframe.bench.simulation import BARE, BARS, Simulation, measure_simulation
 from phframe.bench.sweeps import Prediction, compare, outcomes, planned_sweeps, score
 from phframe.core import NotInstalledError
-from phframe.registry import Kind, load
+from phframe.registry import Kind, create, load
+from phframe.runtime.scenes import find_scene
 from phframe.runtime.solve import PLAN_OPTIONS
 
 ENGINE = "mujoco"
@@ -25,7 +27,9 @@ LEAST_ALIKE = 27 / 31
 
 def measure_in_space(console: Console, scenes: Sequence[str]) -> dict[str, Any]:
     """Simulation of every engine that is installed, and prediction; what is not installed is not measured."""
-    table = Table("figure", "median", "worst", "bar", title="In space, with the planar arm, 31 scenes")
+    table = Table(
+        "figure", "median", "worst", "bar", title="In space, 31 scenes; with the planar arm where no other is named"
+    )
     figures: dict[str, Any] = {"simulation": [], "prediction": []}
     for backend in filter(_installed, BARE):
         rows = _simulations(console, scenes, backend)
@@ -35,6 +39,10 @@ def measure_in_space(console: Console, scenes: Sequence[str]) -> dict[str, Any]:
         predictions = _predictions(console, scenes)
         _add_prediction(table, predictions)
         figures["prediction"] = [asdict(prediction) for prediction in predictions]
+    if _installed(ENGINE) and _can_move(ARM):
+        motions = _motions(console, scenes)
+        _add_motion_planning(table, motions)
+        figures["motion_planning"] = [{**asdict(motion), "total": motion.total} for motion in motions]
     console.print(table if table.rows else "In space: no engine is installed, so nothing is measured.")
     return figures
 
@@ -45,6 +53,36 @@ def _installed(backend: str) -> bool:
     except NotInstalledError:
         return False
     return True
+
+
+def _can_move(arm: str) -> bool:
+    """Whether what an arm's motion planner needs is installed."""
+    try:
+        model = create(Kind.ARM, arm)
+        scene = find_scene("vieira/basic")
+        model.motion_planner(scene, model.default_mount(scene.shelf))
+    except NotInstalledError:
+        return False
+    return True
+
+
+def _motions(console: Console, scenes: Sequence[str]) -> list[MotionPlanning]:
+    with console.status("planning motion") as status:
+        rows = []
+        for name in scenes:
+            status.update(f"motion planning with {ARM}: {name}")
+            rows.append(measure_motion_planning(name, ENGINE))
+    return rows
+
+
+def _add_motion_planning(table: Table, rows: Sequence[MotionPlanning]) -> None:
+    times, totals = [time for row in rows for time in row.actions], [row.total for row in rows]
+    lifted = len(times) - sum(row.unreachable for row in rows)
+    table.add_row(f"motion planning for one action, {ARM} (s)", f"{median(times):.2f}", f"{max(times):.2f}", "0.25 / 2")
+    table.add_row(
+        f"PHIA's plan and all of {ARM}'s trajectories (s)", f"{median(totals):.2f}", f"{max(totals):.2f}", "1"
+    )
+    table.add_row(f"actions that {ARM} can do", f"{lifted} of {len(times)}", "", "")
 
 
 def _simulations(console: Console, scenes: Sequence[str], backend: str) -> list[Simulation]:
