@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -61,7 +62,19 @@ def blocks(language: str) -> list[Block]:
 
 
 def each_block(language: str) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize("block", blocks(language), ids=str)
+    """Every block, marked with the extras that it needs; descriptions of arms are no scenes."""
+    found = [block for block in blocks(language) if block.source is None or "/arms/" not in block.source]
+    marked = [pytest.param(block, marks=marks_of(re.findall(r"\w+", block.text))) for block in found]
+    return pytest.mark.parametrize("block", marked, ids=[str(block) for block in found])
+
+
+EXTRAS_BY_PART = {"mujoco": "mujoco", "pybullet": "pybullet", "baxter": "baxter", "articulated": "baxter"}
+
+
+def marks_of(words: Iterable[str]) -> list[pytest.MarkDecorator]:
+    """The extras that words of a command line or of code stand for."""
+    needed = sorted({EXTRAS_BY_PART[word] for word in words if word in EXTRAS_BY_PART})
+    return [getattr(pytest.mark, f"needs_{extra}") for extra in needed]
 
 
 def table(page: str, heading: str) -> list[list[str]]:

@@ -5,16 +5,21 @@ from __future__ import annotations
 import ast
 import json
 import re
-from collections.abc import Mapping
+import tomllib
+from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import import_module
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 import pytest
+from packaging.requirements import Requirement
 
 import phframe
 from phframe import testing
+from phframe.arms.articulated_options import ArticulatedOptions
+from phframe.arms.description import ArmDescription, Section, Stand, TipFrame
 from phframe.cli import exit_codes
 from phframe.cli.listing_data import listing
 from phframe.cli.option_list import describe
@@ -102,6 +107,47 @@ def test_extras_are_in_the_readme() -> None:
     assert set(re.findall(r"\w+", " ".join(column("README.md", "Run it")))) == extras()
 
 
+PLATFORMS = {
+    "Linux x86-64": ("linux", "x86_64", "#1 SMP"),
+    "Linux aarch64": ("linux", "aarch64", "#1 SMP"),
+    "macOS arm64": ("darwin", "arm64", "Darwin Kernel Version 24.1.0"),
+    "macOS Intel": ("darwin", "x86_64", "Darwin Kernel Version 24.1.0"),
+    "Windows": ("win32", "AMD64", "10.0.26100"),
+}
+PYTHONS = ("3.11", "3.12", "3.13", "3.14")
+
+
+def available(names: Sequence[str], platform: tuple[str, str, str], *, by_joints: bool) -> str:
+    """With which Python everything needed in some extras is installed, in words; only joints need times for their paths."""
+    optional = tomllib.loads(text_of(ROOT / "pyproject.toml"))["project"]["optional-dependencies"]
+    requirements = [Requirement(line) for name in names for line in optional[name]]
+    markers = [each.marker for each in requirements if by_joints or each.name != "toppra"]
+    system, machine, version = platform
+    environment = {"sys_platform": system, "platform_machine": machine, "platform_version": version}
+    environment["implementation_name"] = "cpython"
+    fits = [
+        python
+        for python in PYTHONS
+        if all(marker is None or marker.evaluate({**environment, "python_version": python}) for marker in markers)
+    ]
+    return {0: "no", 1: "".join(fits), len(PYTHONS): "3.11+"}.get(len(fits)) or f"{fits[0]} to {fits[-1]}"
+
+
+def test_what_runs_where_is_what_the_markers_say() -> None:
+    rows = table("README.md", "What runs where")
+    backends, arms = (
+        {each.name for each in builtin.EXTENSIONS if each.kind is kind} for kind in (Kind.BACKEND, Kind.ARM)
+    )
+    assert {(row[0], row[1]) for row in rows} >= set(product(backends, arms))
+    for backend, arm, needed, *cells in rows:
+        names = re.findall(r"\w+", needed)
+        own = [each.extra for each in builtin.EXTENSIONS if each.name in (backend, arm) and each.extra]
+        assert set(own) <= set(names), (backend, arm)
+        by_joints = backend != "pymunk"
+        found = [available(names, platform, by_joints=by_joints) for platform in PLATFORMS.values()]
+        assert cells == found, (backend, arm)
+
+
 def test_every_settlement_is_explained() -> None:
     assert column("docs/planners.md", "Settlements of what the paper leaves open") == list(Choice)
 
@@ -114,6 +160,24 @@ def test_every_planner_and_its_options_are_explained(planner: str) -> None:
 
 def test_options_of_the_generator_are_explained() -> None:
     check_options(table("docs/scenes.md", "The generator"), Kind.SCENES, "random")
+
+
+def test_what_is_said_of_an_arm_is_explained() -> None:
+    rows = table("docs/robots.md", "The description")
+    assert [row[0] for row in rows] == list(ArmDescription.model_fields)
+    for key, default, text in rows:
+        field = ArmDescription.model_fields[key]
+        assert default in ("", str(field.default)) or not (field.is_required() or field.default), key
+        assert (default == "") is (field.is_required() or key == "urdf"), key
+        nested = {"tip": TipFrame, "shelf": Stand, "behind": Section}.get(key)
+        assert nested is None or all(f"`{name}`" in text for name in nested.model_fields), key
+
+
+def test_options_of_motion_are_explained() -> None:
+    rows = table("docs/robots.md", "How it moves")
+    fields = ArticulatedOptions.model_fields
+    assert [row[:2] for row in rows] == [[key, str(field.default)] for key, field in fields.items()]
+    assert all(f"({unit})" in (ArticulatedOptions.__doc__ or "") for _, _, unit, _ in rows if unit)
 
 
 def check_options(rows: list[list[str]], kind: Kind, name: str) -> None:

@@ -75,9 +75,9 @@ def camera(shelf: Shelf, mount: Mount) -> Any:
     """From before the shelf and above into it, a little from the side on which the arm does not stand."""
     north = mount.y <= 0.5 * shelf.width
     seen = mujoco.MjvCamera()
-    seen.lookat = [0.2 * shelf.depth, (0.45 if north else 0.55) * shelf.width, 0.06]
+    seen.lookat = [0.04 * shelf.depth, (0.48 if north else 0.52) * shelf.width, 0.02]
     seen.distance = 0.85 + 0.9 * max(shelf.depth, shelf.width)
-    seen.azimuth, seen.elevation = (-26.0 if north else 26.0), -40.0
+    seen.azimuth, seen.elevation = (-36.0 if north else 36.0), -36.0
     return seen
 
 

@@ -148,7 +148,10 @@ def test_at_most_two_are_proposed_in_each_direction_and_those_that_clear_come_fi
         assert len({bool(OTHER & {*push.choices}) for push in same}) <= 1
     for push in pushes:
         assert (Choice.NOT_CLEARING in push.choices) is not push.clears
-    for part in (pushes[: sum(clears)], pushes[sum(clears) :]):
+    ranks = [(not push.clears, push.clears and push.rams) for push in pushes]
+    assert ranks == sorted(ranks), "what rams on its way in comes after what does not"
+    for rank in set(ranks):
+        part = [push for push, its in zip(pushes, ranks, strict=True) if its == rank]
         other = [bool(OTHER & {*push.choices}) for push in part]
         assert other == sorted(other), "the paper's direction comes first"
 
