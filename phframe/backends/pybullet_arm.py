@@ -13,7 +13,7 @@ from phframe.backends.pybullet_quiet import bullet, caught_output
 from phframe.backends.pybullet_urdf import Coupling, PreparedUrdf
 from phframe.core import ArmModel, IncompatibleError, Mount
 
-STIFFNESS, DAMPING = 5e3, 200.0
+STIFFNESS, DAMPING = 5e3, 50.0
 """Of the arm's cover at every point of contact (N/m, Ns/m). A rigid one would make a blow of every touch."""
 COUPLING_FORCE = 1000.0
 """Greatest force or torque between coupled joints (N or Nm): more than anything here can push with."""

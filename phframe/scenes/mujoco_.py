@@ -5,6 +5,7 @@ Free bodies are objects, boxes and planes fixed to the world may be a shelf. Eve
 
 from __future__ import annotations
 
+import warnings
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterator
@@ -103,7 +104,9 @@ def _quiet() -> Iterator[None]:
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(lambda _: None)
     try:
-        yield
+        with warnings.catch_warnings():  # compiling warns in Python's way
+            warnings.simplefilter("ignore")
+            yield
     finally:
         mujoco.set_mju_user_warning(before)
 

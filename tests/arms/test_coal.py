@@ -107,7 +107,7 @@ def test_open_fingers_take_more_room() -> None:
 
 def test_margins_are_kept() -> None:
     arm = example()
-    model, palm = model_of(arm, Scene("s", SHELF, (cylinder("target", 0.5, MIDDLE),), "target")), 0.13 / 2.0
+    model, palm = model_of(arm, Scene("s", SHELF, (cylinder("target", 0.5, MIDDLE),), "target")), 0.11 / 2.0
     for gap, free in ((0.001, False), (0.003, True)):
         assert model.is_free(reaching(arm, 0.17, SHELF.width - palm - gap)) == free, gap
     for gap, free in ((0.0005, False), (0.002, True)):
@@ -118,7 +118,7 @@ def test_what_touches_at_the_beginning_may_touch_no_deeper_and_only_meanwhile() 
     arm = example()
     model = model_of(arm)
     touching, deeper, away = (reaching(arm, x, MIDDLE) for x in (0.122, 0.130, 0.110))
-    wall = reaching(arm, 0.11, 0.06)
+    wall = reaching(arm, 0.11, 0.05)
     assert met(model, touching) == {"near"}
     with model.tolerating(touching):
         assert model.is_free(touching)
