@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 from packaging.requirements import Requirement
+from pydantic import BaseModel
 
 import phframe
 from phframe import testing
@@ -169,7 +170,8 @@ def test_what_is_said_of_an_arm_is_explained() -> None:
         field = ArmDescription.model_fields[key]
         assert default in ("", str(field.default)) or not (field.is_required() or field.default), key
         assert (default == "") is (field.is_required() or key == "urdf"), key
-        nested = {"tip": TipFrame, "shelf": Stand, "behind": Section}.get(key)
+        parts: dict[str, type[BaseModel]] = {"tip": TipFrame, "shelf": Stand, "behind": Section}
+        nested = parts.get(key)
         assert nested is None or all(f"`{name}`" in text for name in nested.model_fields), key
 
 
