@@ -122,7 +122,7 @@ def read_description(path: Path) -> tuple[ArmDescription, str]:
     try:
         content = YAML(typ="safe", pure=True).load(_text(path))
         if not isinstance(content, dict):
-            raise InputError(f"{path}: a description is a list of keys and values, as in 'height: 0.1'")
+            raise InputError(f"{path}: a description is made of keys and values, as in 'height: 0.1'")
         description = ArmDescription.model_validate(content)
     except YAMLError as error:
         raise InputError(f"{path}: not valid YAML: {' '.join(str(error).split())}") from None

@@ -30,6 +30,7 @@ from phframe.core import (
 pytestmark = pytest.mark.needs_baxter
 
 SHELF = Shelf(0.5, 0.6)
+BEHIND = {"part": "forearm", "widths": [[0.14, 0.05], [0.4, 0.1]], "bottom": -0.03, "top": 0.03}
 BOX = Solid("box", (0.2, 0.06, 0.06), (0.1, 0.0, 0.0))
 DESCRIPTION: dict[str, Any] = {
     "phframe": 1,
@@ -41,7 +42,7 @@ DESCRIPTION: dict[str, Any] = {
     "home": [0.1, 1.2, -2.0, 0.8, 0.0, 0.0],
     "shelf": {"at": [0.5, 0.0, 0.0]},
     "height": 0.08,
-    "behind": [{"part": "forearm", "widths": [[0.14, 0.05], [0.4, 0.1]], "bottom": -0.03, "top": 0.03}],
+    "behind": [BEHIND],
 }
 """A lift with an arm of three parallel joints and a wrist of two more."""
 
@@ -127,6 +128,14 @@ def test_a_shelf_that_stands_askew_is_where_it_is_described(tmp_path: Path) -> N
         ({"phframe": 2}, "arm.yaml: phframe"),
         ({"urdf": "gone.urdf"}, "cannot read .*gone.urdf: No such file"),
         ({"urdf": None}, "urdf must name"),
+        ({"joints": [*DESCRIPTION["joints"][:5], "tilt"]}, "joint 'tilt' is named twice"),
+        ({"fingers": ["left_slide", "left_slide"]}, "joint 'left_slide' is named twice"),
+        ({"postures": [[0.0, 1.0]]}, "a posture has 2 values for 6 joints"),
+        ({"postures": [[9.0, 0.0, 0.0, 0.0, 0.0, 0.0]]}, "at a posture lift is 9, beyond its limits"),
+        ({"postures": [[float("nan")] * 6]}, "arm.yaml: postures.0.0: .* finite"),
+        ({"overlapping": [["palm", "thumb"]]}, "'overlapping' names the link 'thumb', which the URDF has not"),
+        ({"behind": [{**BEHIND, "widths": [[0.14, 0.05]]}]}, "widths: at least two pairs"),
+        ({"behind": [{**BEHIND, "widths": [[0.4, 0.1], [0.14, 0.05]]}]}, "the nearest first"),
     ],
 )
 def test_a_description_that_cannot_be_is_told(tmp_path: Path, changes: dict[str, Any], said: str) -> None:
@@ -146,11 +155,27 @@ def test_a_description_that_cannot_be_is_told(tmp_path: Path, changes: dict[str,
         (urdf().replace('upper="2.5" ', "", 1), "joint 'shoulder' of the URDF has no upper"),
         (urdf().replace('xyz="0.05 0.0 0.0"', 'xyz="0.05 0.0"', 1), "'0.05 0.0' where three numbers are needed"),
         (urdf("revolute"), "the finger joint 'left_slide' turns"),
+        (urdf().replace('velocity="2.0"', 'velocity="0.0"', 1), "joint 'shoulder' of the URDF has the velocity 0"),
+        (urdf().replace('lower="-2.5"', 'lower="2.5"', 1), "joint 'shoulder' of the URDF has no room between"),
     ],
 )
 def test_a_urdf_that_does_not_load_is_told(tmp_path: Path, text: str, said: str) -> None:
     with pytest.raises(ArmError, match=said):
         arm(tmp_path, text).urdf()
+
+
+def test_a_list_is_no_description(tmp_path: Path) -> None:
+    (tmp_path / "list.yaml").write_text("- 1", "utf-8")
+    with pytest.raises(InputError, match="a description is made of keys and values"):
+        DescribedArm(DescribedArmOptions(description=tmp_path / "list.yaml")).urdf()
+
+
+def test_covers_that_are_meshes_are_not_moved_by_joints(tmp_path: Path) -> None:
+    text = urdf().replace('<box size="0.2 0.06 0.06" />', '<mesh filename="upper.stl" />')
+    robot = arm(tmp_path, text)
+    scene = Scene("shelf", SHELF, (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
+    with pytest.raises(ArmError, match="the collision shape of link 'upper' in the URDF is a mesh"):
+        robot.motion_planner(scene, robot.default_mount(SHELF))
 
 
 def test_files_that_are_not_there_or_not_text_are_told(tmp_path: Path) -> None:
