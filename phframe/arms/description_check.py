@@ -15,14 +15,14 @@ def check_description(description: ArmDescription, robot: Robot) -> None:
     Raises:
         ArmError: If they do not; says where.
     """
+    names = (*description.joints, *description.fingers)
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise ArmError(f"joint {twice[0]!r} is named twice under 'joints' and 'fingers'")
     joints = [_joint(robot, name) for name in description.joints]
     for name in description.fingers:
         _joint(robot, name)
         if robot.joint(name).kind != "prismatic":
             raise ArmError(f"the finger joint {name!r} turns; fingers that slide are needed")
-    names = (*description.joints, *description.fingers)
-    if twice := sorted({name for name in names if names.count(name) > 1}):
-        raise ArmError(f"joint {twice[0]!r} is named twice under 'joints' and 'fingers'")
     _check_values("home", description.home, joints)
     for posture in description.postures:
         _check_values("a posture", posture, joints)
