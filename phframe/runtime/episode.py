@@ -257,8 +257,9 @@ class _Run:
         return ""
 
     def _deviation(self, expected: State, action: Action) -> str:
-        """What is not where it was expected, if anything."""
+        """What is not where it was expected, if anything; of what lay before, engines in the plane know no better."""
         deviation = self._seen.displacement(expected)
+        deviation[[was is not Condition.UPRIGHT for was in self._steps[-1].before.conditions]] = 0.0
         worst = int(deviation.argmax())
         if deviation[worst] <= self._loop.tolerance:
             return ""

@@ -11,7 +11,7 @@ from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.solve import solve
 from phframe.runtime.world import WorldSpec
-from tests.runtime.worlds import BASIC, Clumsy, Meddling, Noting, run, shifted, spilled
+from tests.runtime.worlds import BASIC, Clumsy, Meddling, Noting, run, shifted, spilled, toppled
 
 SPEC = WorldSpec(BASIC)
 USUAL = run(ExecutionWorld(SPEC))
@@ -69,6 +69,14 @@ def test_an_object_that_was_lost_calls_for_a_replan_too() -> None:
     assert episode.replans >= 1
     assert episode.spilled == (name,)
     assert (episode.status, episode.clean) == (Status.RETRIEVED, False)
+
+
+def test_where_something_lies_that_had_toppled_before_is_no_reason_to_replan() -> None:
+    name = first_target_of(USUAL)
+    once = run(Meddling(SPEC, {1: toppled(name)}))
+    again = run(Meddling(SPEC, {1: toppled(name), 2: shifted(name, (0.0, 0.02))}))
+    assert once.replans >= 1
+    assert again.replans == once.replans
 
 
 def test_a_target_that_is_lost_ends_it() -> None:

@@ -106,6 +106,17 @@ def spilled(name: str, scene: Scene = BASIC) -> Meddle:
     return meddle
 
 
+def toppled(name: str, scene: Scene = BASIC) -> Meddle:
+    """An object falls over."""
+
+    def meddle(state: State) -> State:
+        conditions = list(state.conditions)
+        conditions[scene.index(name)] = Condition.TOPPLED
+        return replace(state, conditions=tuple(conditions))
+
+    return meddle
+
+
 def run(
     execution: ExecutionWorld,
     planner: Planner[Any] | None = None,
