@@ -80,8 +80,10 @@ def refuse_unwritable(path: Path) -> None:
     if path.is_dir():
         raise InputError(f"cannot write the video {path}: it is a directory. Give a file.")
     try:
-        _beside(path).touch()
-        _beside(path).unlink()
+        try:
+            _beside(path).touch()
+        finally:
+            _beside(path).unlink(missing_ok=True)
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None
 

@@ -53,7 +53,12 @@ class VideoRecorder(Observer):
         Raises:
             InputError: If the file cannot be written.
         """
-        self._shooting = _Shooting(Film(self.path, self._kind), scene, arm)
+        film = Film(self.path, self._kind)
+        try:
+            self._shooting = _Shooting(film, scene, arm)
+        except BaseException:  # an interruption, too, leaves nothing
+            film.close()
+            raise
         self._shooting.show(0.0, [(0.0, scene.initial_state())], {}, scene.name)
         self._seconds, self._actions, self._over = 0.0, 0, False
 
