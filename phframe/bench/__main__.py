@@ -17,22 +17,32 @@ from phframe.bench.outcomes import Outcome, Tally, choices, run_suite, tally
 from phframe.bench.overhead import measure
 from phframe.bench.single import diagram_time, help_times
 from phframe.bench.space import fit_in_space, measure_in_space
+from phframe.core import PhframeError
 from phframe.runtime.files import write_whole
 from phframe.runtime.scenes import scene_names
 
+WHAT = "suites: solve the published scenes; calibrate: fit pymunk to MuJoCo"
 PUBLISHED = ("vieira", "papallas")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Measure everything, or fit pymunk to MuJoCo."""
+    """Measure everything, or what is asked for; what cannot be used is one line."""
     given = command_line().parse_args(arguments)
-    console = Console()
+    try:
+        _measure(given, Console())
+    except PhframeError as error:
+        command_line().error(str(error))
+
+
+def _measure(given: argparse.Namespace, console: Console) -> None:
     scenes = [name for name in scene_names() if name.startswith(PUBLISHED)]
     if given.what == "calibrate":
         figures = fit_in_space(console, given.scenes, scenes)
+    elif given.what == "suites":
+        figures = {"suites": _suites(console, given, scenes)}
     else:
         figures = {
-            "suites": _suites(console, given.planners, scenes),
+            "suites": _suites(console, given, scenes),
             "overhead": _overhead(console, scenes),
             "single": _single(console),
             **measure_in_space(console, scenes),
@@ -44,8 +54,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def command_line() -> argparse.ArgumentParser:
     """What can be asked for."""
     parser = argparse.ArgumentParser(prog="python -m phframe.bench", description="Measure phframe.")
-    parser.add_argument("what", nargs="?", choices=["all", "calibrate"], default="all", help="calibrate: fit pymunk")
+    parser.add_argument("what", nargs="?", choices=["all", "suites", "calibrate"], default="all", help=WHAT)
     parser.add_argument("--planners", nargs="+", default=["phia", "ooa"], help="planners to run on the suites")
+    parser.add_argument("--backend", default="pymunk", help="in which plans are carried out")
+    parser.add_argument("--arm", default="planar", help="that carries them out")
     parser.add_argument("--scenes", type=int, default=40, help="random scenes to fit to, and as many to judge by")
     parser.add_argument(
         "--out", type=Path, help="file for the figures; the default is runs/bench.json or runs/calibrate.json"
@@ -53,11 +65,11 @@ def command_line() -> argparse.ArgumentParser:
     return parser
 
 
-def _suites(console: Console, planners: Sequence[str], scenes: Sequence[str]) -> list[dict[str, Any]]:
+def _suites(console: Console, given: argparse.Namespace, scenes: Sequence[str]) -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = []
     with console.status("solving") as status:
-        for planner in planners:
-            outcomes = run_suite(planner, scenes, status.update)
+        for planner in given.planners:
+            outcomes = run_suite(planner, scenes, status.update, backend=given.backend, arm=given.arm)
             tallies = [tally(planner, suite, [o for o in outcomes if o.suite == suite]) for suite in PUBLISHED]
             tallies.append(tally(planner, "all", outcomes))
             _print_outcomes(console, planner, tallies, outcomes)
@@ -66,12 +78,23 @@ def _suites(console: Console, planners: Sequence[str], scenes: Sequence[str]) ->
 
 
 def _print_outcomes(console: Console, planner: str, tallies: Sequence[Tally], outcomes: Sequence[Outcome]) -> None:
-    columns = ("suite", "scenes", "cleared", "reached", "retrieved", "clean", "pushes", "planning ms", "execution s")
+    columns = (
+        "suite",
+        "scenes",
+        "cleared",
+        "reached",
+        "retrieved",
+        "clean",
+        "pushes",
+        "planning ms",
+        "motion ms",
+        "execution s",
+    )
     table = Table(*columns, title=f"{planner} on the published scenes")
     for t in tallies:
         counts = (t.scenes, t.cleared, t.reached, t.retrieved, t.clean)
-        figures = (f"{t.actions:.1f}", f"{t.planning_time * 1e3:.1f}", f"{t.execution_time:.1f}")
-        table.add_row(t.suite, *map(str, counts), *figures)
+        times = (f"{t.planning_time * 1e3:.1f}", f"{t.motion_planning_time * 1e3:.0f}", f"{t.execution_time:.1f}")
+        table.add_row(t.suite, *map(str, counts), f"{t.actions:.1f}", *times)
     console.print(table)
     for outcome in outcomes:
         if not outcome.episode.clean:

@@ -43,6 +43,7 @@ class Tally:
         clean: In how many of those nothing toppled or spilled and no wall was touched.
         actions: Mean number of pushes, of the scenes that were retrieved.
         planning_time: Median wall time (s).
+        motion_planning_time: Median wall time of lifting actions to joints (s).
         execution_time: Median simulated time (s), of the scenes that were retrieved.
     """
 
@@ -55,15 +56,27 @@ class Tally:
     clean: int
     actions: float
     planning_time: float
+    motion_planning_time: float
     execution_time: float
 
 
-def run_suite(planner: str, scenes: Sequence[str], tell: Callable[[str], None]) -> list[Outcome]:
-    """Solve every scene, each called ``suite/name``, with seed 0."""
+def run_suite(
+    planner: str,
+    scenes: Sequence[str],
+    tell: Callable[[str], None],
+    *,
+    backend: str = "pymunk",
+    arm: str = "planar",
+) -> list[Outcome]:
+    """Solve every scene, each called ``suite/name``, with seed 0.
+
+    Raises:
+        PhframeError: If backend or arm do not exist, are not installed or cannot go together.
+    """
     outcomes = []
     for name in scenes:
         tell(f"{planner} {name}")
-        outcomes.append(Outcome(name.partition("/")[0], name, solve(name, planner=planner)))
+        outcomes.append(Outcome(name.partition("/")[0], name, solve(name, planner=planner, backend=backend, arm=arm)))
     return outcomes
 
 
@@ -81,6 +94,7 @@ def tally(planner: str, suite: str, outcomes: Sequence[Outcome]) -> Tally:
         clean=sum(episode.clean for episode in episodes),
         actions=mean([episode.pushes for episode in retrieved] or [0]),
         planning_time=median(episode.cost.total for episode in episodes),
+        motion_planning_time=median(episode.motion_planning_time for episode in episodes),
         execution_time=median([episode.execution_time for episode in retrieved] or [0.0]),
     )
 

@@ -9,6 +9,7 @@ from statistics import median
 import numpy as np
 import pytest
 
+from phframe.bench import __main__ as bench
 from phframe.bench.outcomes import Outcome, choices, run_suite, tally, was_cleared
 from phframe.core import Condition, Episode, Plan, State, Status
 from phframe.runtime.solve import solve
@@ -90,3 +91,19 @@ def _spilled(episode: Episode, plan: Plan) -> State:
     conditions = list(plan.expected[-1].conditions)
     conditions[episode.scene.target_index] = Condition.SPILLED
     return replace(plan.expected[-1], conditions=tuple(conditions))
+
+
+@pytest.mark.needs_mujoco
+def test_a_suite_can_be_carried_out_in_space() -> None:
+    pytest.importorskip("mujoco")
+    (outcome,) = run_suite("phia", ["vieira/simple-10"], lambda scene: None, backend="mujoco")
+    assert outcome.episode.setup.backend == "mujoco"
+    assert tally("phia", "vieira", [outcome]).motion_planning_time > 0.0
+
+
+def test_what_cannot_be_measured_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        bench.main(["suites", "--backend", "pymonk"])
+    message = capsys.readouterr().err.splitlines()[-1]
+    assert "pymonk" in message
+    assert "pymunk" in message
