@@ -11,10 +11,9 @@ import coal
 import numpy as np
 import pinocchio
 
-from phframe.core import FloatArray, Mount, Scene, Shelf, State
+from phframe.core import FloatArray, Mount, Scene, State
+from phframe.core.slabs import slabs
 
-THICKNESS = 0.1
-"""Of board, walls and ceiling (m)."""
 WALL_MARGIN = 0.0015
 """Kept between the robot and the shelf (m)."""
 OBJECT_MARGIN = 0.001
@@ -126,7 +125,8 @@ class CollisionModel:
 
     def _add_surroundings(self) -> tuple[list[int], list[int]]:
         """Put shelf and objects in; their numbers."""
-        shelf = [self._add(name, box, place) for name, box, place in _walls(self._scene.shelf)]
+        slabbed = slabs(self._scene.shelf)
+        shelf = [self._add(slab.name, coal.Box(*slab.size), np.array(slab.center)) for slab in slabbed]
         objects = []
         for item in self._scene.objects:
             cylinder = coal.Cylinder(item.shape.radius, item.shape.height)
@@ -178,17 +178,3 @@ def placement(mount: Mount) -> Any:
 
 def _link_of(model: Any, item: Any) -> str:
     return str(model.frames[item.parentFrame].name)
-
-
-def _walls(shelf: Shelf) -> Iterator[tuple[str, Any, FloatArray]]:
-    """Name, box and centre (m) of each."""
-    depth, width, height, t = shelf.depth, shelf.width, shelf.height, THICKNESS
-    for name, lower, upper in (
-        ("board", (0.0, -t, -t), (depth + t, width + t, 0.0)),
-        ("south wall", (0.0, -t, 0.0), (depth, 0.0, height)),
-        ("north wall", (0.0, width, 0.0), (depth, width + t, height)),
-        ("back wall", (depth, -t, 0.0), (depth + t, width + t, height)),
-        ("ceiling", (0.0, -t, height), (depth + t, width + t, height + t)),
-    ):
-        low, high = np.array(lower), np.array(upper)
-        yield name, coal.Box(*(high - low)), (low + high) / 2.0

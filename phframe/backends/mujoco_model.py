@@ -10,8 +10,8 @@ import numpy as np
 
 from phframe.backends.mujoco_arm import PREFIX, arm_spec, lead
 from phframe.backends.mujoco_shelf import Surfaces, foot_name, object_name, shelf_spec
-from phframe.backends.shelf_boxes import WALLS
 from phframe.core import ArmModel, FloatArray, IntArray, Mount, Scene
+from phframe.core.slabs import WALLS
 
 FORCE_SENSOR = "force on the arm"
 

@@ -17,8 +17,8 @@ from typing import Any, Literal
 
 import mujoco
 
-from phframe.backends.shelf_boxes import BOARD, Corner, board_box, wall_boxes
 from phframe.core import Scene, SceneObject, Shelf, coulomb_with_board
+from phframe.core.slabs import Slab, Vector, slabs
 
 ARM_KIND, ARM_MEETS = 1, 2
 """Collision bits of the arm: it meets what has bit 2, and never itself."""
@@ -89,12 +89,12 @@ def _set_options(option: Any, surfaces: Surfaces, step: float, sleep: bool) -> N
 
 def _add_boards(spec: Any, shelf: Shelf, friction: list[float]) -> None:
     _add_plane(spec, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), PLANE, friction)
-    _add_box(spec, BOARD, *board_box(shelf), BOX, friction)
+    _add_box(spec, slabs(shelf)[0], BOX, friction)
 
 
 def _add_walls(spec: Any, shelf: Shelf, friction: list[float]) -> None:
-    for name, lower, upper in wall_boxes(shelf):
-        _add_box(spec, name, lower, upper, 0, friction)
+    for wall in slabs(shelf)[1:]:
+        _add_box(spec, wall, 0, friction)
     depth, width, height = shelf.depth, shelf.width, shelf.height
     for point, turned in (
         ((0.0, 0.0, 0.0), (1.0, -1.0, 0.0, 0.0)),
@@ -105,7 +105,7 @@ def _add_walls(spec: Any, shelf: Shelf, friction: list[float]) -> None:
         _add_plane(spec, point, turned, WALL, friction)
 
 
-def _add_plane(spec: Any, point: Corner, turned: Turn, meets: int, friction: list[float]) -> None:
+def _add_plane(spec: Any, point: Vector, turned: Turn, meets: int, friction: list[float]) -> None:
     """What objects meet at a wall or stand on; its z axis points inwards."""
     spec.worldbody.add_geom(
         type=mujoco.mjtGeom.mjGEOM_PLANE,
@@ -121,13 +121,13 @@ def _add_plane(spec: Any, point: Corner, turned: Turn, meets: int, friction: lis
     )
 
 
-def _add_box(spec: Any, name: str, lower: Corner, upper: Corner, meets: int, friction: list[float]) -> None:
+def _add_box(spec: Any, slab: Slab, meets: int, friction: list[float]) -> None:
     """What the arm meets at a wall."""
     spec.worldbody.add_geom(
-        name=name,
+        name=slab.name,
         type=mujoco.mjtGeom.mjGEOM_BOX,
-        pos=[(a + b) / 2.0 for a, b in zip(lower, upper, strict=True)],
-        size=[(b - a) / 2.0 for a, b in zip(lower, upper, strict=True)],
+        pos=slab.center,
+        size=[length / 2.0 for length in slab.size],
         priority=1,
         condim=4,
         solref=CONTACT,

@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 
 from phframe.backends.pybullet_quiet import bullet
-from phframe.backends.shelf_boxes import Corner
 from phframe.core import FloatArray, SceneObject
+from phframe.core.slabs import Slab, Vector
 
 WALL_STIFFNESS, WALL_DAMPING = 2e4, 200.0
 """Of walls and ceiling at every point where an object meets them (N/m, Ns/m): what is pressed into them is not hit."""
@@ -64,17 +64,15 @@ class Maker:
         # Bodies without one are given a mesh to look at, which takes longer than all the rest.
         self._look = bullet.createVisualShape(bullet.GEOM_BOX, halfExtents=[0.01] * 3, physicsClientId=client)
 
-    def box(self, corners: tuple[Corner, Corner], bits: int, meets: int) -> int:
+    def box(self, slab: Slab, bits: int, meets: int) -> int:
         """What the arm meets, or something held."""
-        lower, upper = corners
-        half = [(b - a) / 2.0 for a, b in zip(lower, upper, strict=True)]
-        middle = [(a + b) / 2.0 for a, b in zip(lower, upper, strict=True)]
+        half = [length / 2.0 for length in slab.size]
         shape = bullet.createCollisionShape(bullet.GEOM_BOX, halfExtents=half, physicsClientId=self._client)
-        body = self._body(0.0, shape, middle, bits, meets)
+        body = self._body(0.0, shape, slab.center, bits, meets)
         self._set(body, lateralFriction=self._surfaces.own)  # with the arm, as objects have it
         return body
 
-    def plane(self, point: Corner, normal: Corner, friction: float, bits: int, meets: int) -> int:
+    def plane(self, point: Vector, normal: Vector, friction: float, bits: int, meets: int) -> int:
         """What objects stand on or meet at a wall."""
         shape = bullet.createCollisionShape(bullet.GEOM_PLANE, planeNormal=normal, physicsClientId=self._client)
         body = self._body(0.0, shape, point, bits, meets)
@@ -104,7 +102,7 @@ class Maker:
         return body
 
     def _body(
-        self, mass: float, shape: int, place: Corner | list[float], bits: int, meets: int, turned: object = (0, 0, 0, 1)
+        self, mass: float, shape: int, place: Vector | list[float], bits: int, meets: int, turned: object = (0, 0, 0, 1)
     ) -> int:
         body: int = bullet.createMultiBody(
             mass, shape, self._look, basePosition=place, baseOrientation=turned, physicsClientId=self._client

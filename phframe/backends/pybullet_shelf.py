@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 from phframe.backends.pybullet_bodies import ARM, BOARDS, BOX, OBJECT, OBJECT_MEETS, PLANE, Maker, Surfaces
 from phframe.backends.pybullet_quiet import bullet
-from phframe.backends.shelf_boxes import BOARD, WALLS, Corner, board_box, wall_boxes
 from phframe.core import Scene, Shelf, State, coulomb_with_board
+from phframe.core.slabs import WALLS, Vector, slabs
 
-LEVEL: tuple[Corner, Corner] = ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+LEVEL: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
 """Point and normal of the board's surface."""
 
 
@@ -44,7 +44,7 @@ def build_shelf(client: int, scene: Scene, state: State, surfaces: Surfaces) -> 
     """Make the shelf and the objects that have not spilled."""
     maker = Maker(client, surfaces)
     boxes = _boxes(maker, scene.shelf)
-    edge = maker.box(board_box(scene.shelf), BOARDS, 0)
+    edge = maker.box(slabs(scene.shelf)[0], BOARDS, 0)
     _add_planes(maker, scene.shelf)
     frictions = [coulomb_with_board(scene, item) for item in scene.objects]
     boards = {friction: maker.plane(*LEVEL, friction, BOARDS, 0) for friction in dict.fromkeys(frictions)}
@@ -76,8 +76,7 @@ def set_edge(client: int, edge: int, friction: float, surfaces: Surfaces) -> Non
 
 def _boxes(maker: Maker, shelf: Shelf) -> dict[int, str]:
     """What the arm meets, and what it is called."""
-    corners = {BOARD: board_box(shelf)} | {name: (lower, upper) for name, lower, upper in wall_boxes(shelf)}
-    return {maker.box(box, BOX, ARM): name for name, box in corners.items()}
+    return {maker.box(slab, BOX, ARM): slab.name for slab in slabs(shelf)}
 
 
 def _add_planes(maker: Maker, shelf: Shelf) -> None:
@@ -86,7 +85,7 @@ def _add_planes(maker: Maker, shelf: Shelf) -> None:
         maker.soften(maker.plane(point, normal, shelf.wall_friction, PLANE, OBJECT))
 
 
-def _planes(shelf: Shelf) -> Iterator[tuple[Corner, Corner]]:
+def _planes(shelf: Shelf) -> Iterator[tuple[Vector, Vector]]:
     """Point and normal of the walls and the ceiling, seen from within."""
     yield (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)
     yield (0.0, shelf.width, 0.0), (0.0, -1.0, 0.0)

@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Sequence
 
 from phframe.core import Scene, SceneObject, Shelf, coulomb_with_board
-from phframe.scenes.walls import slabs
+from phframe.core.slabs import PANEL, slabs
 
 TARGET_KEY = "target"
 """Of the custom text that names the target's body."""
@@ -51,7 +51,7 @@ def scene_to_mjcf(scene: Scene) -> str:
 
 def body_names(scene: Scene) -> tuple[str, ...]:
     """What the objects' bodies are called: their ids, but for those that MuJoCo or the file have for something else."""
-    taken = {"world", "shelf", *(slab.name for slab in slabs(scene.shelf))}
+    taken = {"world", "shelf", *(slab.name for slab in slabs(scene.shelf, PANEL))}
     names: list[str] = []
     for wanted in scene.ids:
         name = wanted
@@ -64,7 +64,7 @@ def body_names(scene: Scene) -> tuple[str, ...]:
 
 def _add_shelf(world: ET.Element, shelf: Shelf) -> None:
     body = ET.SubElement(world, "body", name="shelf")
-    for slab in slabs(shelf):
+    for slab in slabs(shelf, PANEL):
         board = slab.name == "board"
         coefficient = shelf.board_friction if board else shelf.wall_friction
         ET.SubElement(

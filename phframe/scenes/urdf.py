@@ -14,7 +14,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping, Sequence
 
 from phframe.core import Scene, SceneObject, coulomb_with_board
-from phframe.scenes.walls import Slab, slabs
+from phframe.core.slabs import PANEL, Slab, slabs
 
 FORMAT = 1
 """Of the list of parts."""
@@ -49,7 +49,7 @@ def scene_parts(scene: Scene) -> dict[str, str]:
 
 def object_links(scene: Scene) -> tuple[str, ...]:
     """What the objects' links are called: their ids, as far as file names and ROS can have them."""
-    taken = {ROOT, *(_plain(slab.name) for slab in slabs(scene.shelf))}
+    taken = {ROOT, *(_plain(slab.name) for slab in slabs(scene.shelf, PANEL))}
     names: list[str] = []
     for item in scene.objects:
         name = wanted = _plain(item.id)
@@ -83,7 +83,7 @@ def _list(scene: Scene) -> Mapping[str, object]:
 def _add_shelf(robot: ET.Element, scene: Scene) -> None:
     ET.SubElement(robot, "link", name=ROOT)
     board, walls = scene.shelf.board_friction, scene.shelf.wall_friction
-    for slab in slabs(scene.shelf):
+    for slab in slabs(scene.shelf, PANEL):
         link = _plain(slab.name)
         _add_slab(robot, link, slab, 1.0 if slab.name == "board" or board == 0.0 else walls / board)
         _fix(robot, link, slab.center, 0.0)
