@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,6 +46,7 @@ RESOLUTION = 0.03
 """Most that a joint moves between two configurations of a free way that are looked at (rad or m)."""
 
 NOWHERE = Unreachable(0.0, "the arm's joints cannot have the gripper where it is said to be", 0)
+OUT_OF_TIME = Unreachable(0.0, "no motion was found in the time allowed", 0)
 UNAPPROACHABLE = Unreachable(0.0, "no free way leads to where the path goes in", 0)
 
 
@@ -52,8 +54,9 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
     """Follows paths with any arm that is given by a URDF and a description.
 
     In the shelf, joints follow the path at constant height, continuously and in a posture that is as narrow behind the
-    gripper as can be; the gripper turns away from the path's yaw only where the fingers are less than 5 cm in the shelf.
-    From where the arm is to where its way in begins, OMPL plans.
+    gripper as can be. The gripper keeps to the path's yaw; it is turned against it, by up to 15 degrees, only where the
+    arm can do no other, and may turn away freely where the fingers are less than 5 cm in the shelf. From where the arm
+    is to where its way in begins, OMPL plans.
 
     Raises:
         UnknownNameError: If there is no such planner.
@@ -77,7 +80,8 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
     def plan(
         self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
-        """Lift a path; ``seconds`` play no part, so that the same inputs give the same bits."""
+        """Lift a path. The same inputs give the same bits, unless the time runs out."""
+        until = time.monotonic() + seconds
         begin, opening = self._where(state)
         if begin is None:
             return NOWHERE
@@ -86,7 +90,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         found = self._onwards(path, router, begin, opening) if self._goes_on(begin, path) else None
         if isinstance(found, JointTrajectory) or (found is not None and path.poses[0, 0] > OUTSIDE):
             return found
-        return self._approached(path, router, begin, opening, attempts, rng)
+        return self._approached(path, router, begin, opening, attempts, until, rng)
 
     def _where(self, state: State) -> tuple[FloatArray | None, float]:
         """Joint values ``(dof,)``, None where none are known, and commanded opening (m)."""
@@ -125,22 +129,25 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         begin: FloatArray,
         opening: float,
         attempts: int,
+        until: float,
         rng: np.random.Generator,
     ) -> JointTrajectory | Unreachable:
         """The way to where a route of the path begins, and the route."""
-        search = RouteSearch(router, self._tracker, self._follower, self._kinematics)
+        search = RouteSearch(router, self._tracker, self._follower, self._kinematics, until)
         seeds = [*(np.array(posture) for posture in self._described.postures), begin, self.arm.home]
         approached = True
         for route in search.routes(seeds, attempts, rng):
             first = path.rules[path.phases[int(route.legs[0])]].opening
-            way = self._free_way(begin, route.joints[0], max(opening, first), rng)
+            way = self._free_way(begin, route.joints[0], max(opening, first), until, rng)
             if way is not None:
                 return self._scheduler.trajectory([*free_way(way, opening, first), *legs_of(route, path, first)])
             approached = False
+        if time.monotonic() > until:
+            return OUT_OF_TIME
         return search.farthest if approached else UNAPPROACHABLE
 
     def _free_way(
-        self, begin: FloatArray, end: FloatArray, opening: float, rng: np.random.Generator
+        self, begin: FloatArray, end: FloatArray, opening: float, until: float, rng: np.random.Generator
     ) -> FloatArray | None:
         """Corners ``(k, dof)`` of a way on which nothing is touched but what is touched where it begins."""
         self._tracker.permit(PhaseRule(1.0, opening, Contacts.NONE))
@@ -154,6 +161,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
                 planner=self.options.motion_planner,
                 resolution=RESOLUTION,
                 iterations=self.options.search,
+                seconds=max(0.0, until - time.monotonic()),
                 rng=rng,
             )
 

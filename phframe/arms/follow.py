@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from phframe.arms.pinocchio_ import Kinematics
+from phframe.arms.pinocchio_ import Kinematics, least_squares
 from phframe.arms.posture import Posture
 from phframe.core import FloatArray
 
@@ -68,7 +68,7 @@ class Follower:
             error, jacobian = kinematics.error(q, target)
             if step and float(error @ error) < REACHED**2:
                 return (q, drift) if float(np.abs(q - begin).max()) < LONGEST_STEP * stride**0.5 else None
-            move = _smallest(jacobian, error)
+            move = least_squares(jacobian, error, DAMPING)
             if step == 0 and len(q) > 6:
                 drift = self._drift(q, drift, jacobian, gripper, stride)
                 move = move + stride * drift
@@ -97,7 +97,7 @@ class Follower:
         if not stopped.any():
             return to
         kept = np.where(stopped, to - q, 0.0)
-        kept = kept + _smallest(np.where(stopped, 0.0, jacobian), error - jacobian @ kept)
+        kept = kept + least_squares(np.where(stopped, 0.0, jacobian), error - jacobian @ kept, DAMPING)
         return np.asarray(np.clip(q + kept, self._lower, self._upper))
 
     def _drift(
@@ -110,10 +110,3 @@ class Follower:
         last, change = float(drift @ direction), LONGEST_CHANGE * stride
         step = min(max(wanted, last - change, -LONGEST_DRIFT), last + change, LONGEST_DRIFT)
         return np.asarray(step * direction)
-
-
-def _smallest(jacobian: FloatArray, error: FloatArray) -> FloatArray:
-    """The smallest move ``(dof,)`` that makes up for an error ``(6,)``."""
-    square = jacobian @ jacobian.T
-    square[np.diag_indices(6)] += DAMPING
-    return np.asarray(jacobian.T @ np.linalg.solve(square, error))

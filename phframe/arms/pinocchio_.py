@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pinocchio
-from numpy.typing import NDArray
 
 from phframe.core import FloatArray
 
@@ -136,7 +135,7 @@ class Kinematics:
         free = np.ones(len(q), dtype=np.bool_)
         damping = min(1e-2, float(error @ error)) + 1e-12
         for _ in range(len(q)):
-            step = _least_squares(jacobian, error, free, damping)
+            step = least_squares(jacobian * free, error, damping)
             step *= min(1.0, LONGEST_STEP / max(float(np.abs(step).max()), 1e-12))
             beyond = free & ((q + step > self.upper) & (q >= self.upper) | (q + step < self.lower) & (q <= self.lower))
             if not beyond.any():
@@ -166,7 +165,6 @@ def _moving(place: pinocchio.SE3, velocity: pinocchio.Motion) -> tuple[FloatArra
     return axes, place.translation, axes @ velocity.angular, axes @ velocity.linear
 
 
-def _least_squares(jacobian: FloatArray, error: FloatArray, free: NDArray[np.bool_], damping: float) -> FloatArray:
-    """The smallest step ``(dof,)`` of the free joints that makes up for an error ``(6,)``."""
-    usable = jacobian * free
-    return np.asarray(usable.T @ np.linalg.solve(usable @ usable.T + damping * np.eye(6), error))
+def least_squares(jacobian: FloatArray, error: FloatArray, damping: float) -> FloatArray:
+    """The smallest step ``(dof,)`` that makes up for an error ``(6,)``; joints whose columns are 0 take no part."""
+    return np.asarray(jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + damping * np.eye(6), error))

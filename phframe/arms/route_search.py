@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import cycle, islice
@@ -58,9 +59,13 @@ class RouteSearch:
         tracker: That the router follows poses with.
         follower: That the tracker moves joints with.
         kinematics: Of the arm.
+        until: When no more postures are tried, by ``time.monotonic`` (s).
     """
 
-    def __init__(self, router: Router, tracker: Tracker, follower: Follower, kinematics: Kinematics) -> None:
+    def __init__(
+        self, router: Router, tracker: Tracker, follower: Follower, kinematics: Kinematics, until: float
+    ) -> None:
+        self._until = until
         self._router, self._tracker = router, tracker
         self._follower, self._kinematics = follower, kinematics
         self._failed: list[Trial] = []
@@ -109,6 +114,8 @@ class RouteSearch:
     def _tried(self, trials: Iterable[Trial]) -> Iterator[Trial]:
         """How far trials lead, roughly."""
         for trial in trials:
+            if time.monotonic() > self._until:
+                return
             route = self._router.through(trial.posture, trial.row, trial.yaw, ROUGHLY)
             if isinstance(route, Unreachable):
                 yield Trial(trial.posture, trial.row, trial.yaw, ending=route)

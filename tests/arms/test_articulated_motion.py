@@ -232,6 +232,14 @@ def test_the_same_inputs_give_the_same_bits_whatever_was_planned_before(kind: st
     assert bits(lifted(fresh, path)) == bits(lifted(used, path)) == bits(lifted(used, path))
 
 
+def test_where_the_time_is_up_it_says_so() -> None:
+    arm = baxter()
+    state = EMPTY.initial_state()
+    found = planner(arm).plan(insertion(arm, 0.4, MIDDLE), state, attempts=1, seconds=0.0, rng=np.random.default_rng(0))
+    assert isinstance(found, Unreachable)
+    assert found.why == "no motion was found in the time allowed"
+
+
 @pytest.mark.parametrize(
     ("x", "y", "why"),
     [(0.45, 0.02, "south wall"), (0.45, SHELF.width - 0.02, "north wall"), (0.9, MIDDLE, "back wall|out of reach")],
