@@ -41,7 +41,7 @@ def commands(world: JointWorld, trajectory: JointTrajectory, period: float) -> C
     seen = times - world.delay
     tips = [np.interp(seen, gripper.times, gripper.poses[:, axis]) for axis in (0, 1)]
     legs = np.searchsorted(gripper.times, times - period / 2.0, side="right") - 1
-    phases = tuple(gripper.phases[min(leg, len(gripper.phases) - 1)] for leg in legs.tolist())
+    phases = tuple(map(gripper.phases.__getitem__, np.minimum(legs, len(gripper.phases) - 1).tolist()))
     return Commands(world.controls(positions, velocities, world.finger_values(openings)), phases, np.column_stack(tips))
 
 

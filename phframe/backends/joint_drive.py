@@ -80,15 +80,15 @@ class Drive:
     def _follow(self) -> None:
         """Tell the joints where to be, step by step, until something ends it."""
         told = commands(self._world, self._trajectory, self._period)
-        phase = None
+        phase, tell, advance = None, self._world.tell, self._advance
         for control, now, (x, y) in zip(told.controls, told.phases, told.tips.tolist(), strict=True):
             if now is not phase:
                 phase = now
                 self._touches.forget_phase()
-            self._world.tell(control)
+            tell(control)
             if self._pressed and self._limiter.heed(self._forces[-1], touched=any(self._forces)):
                 self._world.give_way()
-            tip_x, tip_y = self._advance()
+            tip_x, tip_y = advance()
             lag = math.hypot(tip_x - x, tip_y - y)
             if lag > self._lag:
                 self._note_lag(lag)

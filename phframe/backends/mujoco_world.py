@@ -39,7 +39,11 @@ class World(JointWorld):
         self._ranges = model.mj.actuator_forcerange[: model.dof]
         self._warnings: list[str] = []
         self._step = self._stepping()
-        self._tip, self._felt = data.xpos[model.tip, :2], data.sensordata  # the engine's own memory
+        self._tip, self._felt, self._told = (
+            data.xpos[model.tip, :2],
+            data.sensordata,
+            data.ctrl,
+        )  # the engine's own memory
 
     @property
     def joints(self) -> FloatArray:
@@ -118,7 +122,7 @@ class World(JointWorld):
 
     def tell(self, control: Any) -> None:
         """Tell the servos where to be."""
-        self.data.ctrl[:] = control
+        self._told[:] = control
 
     def hold_joints(self, positions: FloatArray) -> None:
         """Tell the arm to stand still at joint values ``(dof,)``."""
