@@ -8,10 +8,9 @@ import rerun as rr
 from phframe.core import FloatArray, Shelf
 from phframe.recorders import palette
 from phframe.recorders.filling import filling
+from phframe.recorders.shelf_look import drawn_board, drawn_walls
 from phframe.recorders.stream import Stream
 
-BOARD_THICKNESS = 0.012
-WALL_THICKNESS = 0.004
 FILLING_LINES = 60
 
 
@@ -25,15 +24,8 @@ def log_shelf(stream: Stream, shelf: Shelf) -> None:
 
 
 def _log_solid(stream: Stream, shelf: Shelf) -> None:
-    depth, width, height = shelf.depth, shelf.width, shelf.height
-    board = np.array([[0.0, 0.0, -BOARD_THICKNESS], [depth, width, -0.001]])
-    stream.keep("world/shelf/board", _boxes(board[None], palette.BOARD))
-    walls = [
-        [[0.0, -WALL_THICKNESS, 0.0], [depth, 0.0, height]],
-        [[0.0, width, 0.0], [depth, width + WALL_THICKNESS, height]],
-        [[depth, 0.0, 0.0], [depth + WALL_THICKNESS, width, height]],
-    ]
-    stream.keep("world/shelf/walls", _boxes(np.array(walls), palette.WALL))
+    stream.keep("world/shelf/board", _boxes(drawn_board(shelf)[None], palette.BOARD))
+    stream.keep("world/shelf/walls", _boxes(drawn_walls(shelf), palette.WALL))
     stream.keep("world/shelf/edges", rr.LineStrips3D(_edges(shelf), colors=palette.EDGE, radii=-0.7))
 
 

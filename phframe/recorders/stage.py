@@ -13,9 +13,8 @@ from phframe.recorders import palette
 from phframe.recorders.arm_bodies import ArmBodies
 from phframe.recorders.bodies import Body, Piece, Primitive
 from phframe.recorders.coloring import object_color
+from phframe.recorders.shelf_look import drawn_board, drawn_walls
 
-BOARD_THICKNESS = 0.012
-WALL_THICKNESS = 0.004
 EDGE = 0.0015
 """Half the thickness of the shelf's edges (m)."""
 SKY = (156, 167, 181), (98, 109, 123)
@@ -98,13 +97,10 @@ def _set_light(spec: Any, shelf: Shelf, width: int, height: int) -> None:
 
 
 def _add_shelf(spec: Any, shelf: Shelf) -> None:
-    depth, width, height, t = shelf.depth, shelf.width, shelf.height, WALL_THICKNESS
-    _add_box(spec, (0.0, 0.0, -BOARD_THICKNESS), (depth, width, 0.0), palette.BOARD)
-    for low, high in (
-        ((0.0, -t, 0.0), (depth, 0.0, height)),
-        ((0.0, width, 0.0), (depth, width + t, height)),
-        ((depth, 0.0, 0.0), (depth + t, width, height)),
-    ):
+    depth, width, height = shelf.depth, shelf.width, shelf.height
+    low, high = drawn_board(shelf)
+    _add_box(spec, low, high, palette.BOARD)
+    for low, high in drawn_walls(shelf):
         _add_box(spec, low, high, palette.WALL)
     corners = [(x, y) for x in (0.0, depth) for y in (0.0, width)]
     for x, y in corners:
