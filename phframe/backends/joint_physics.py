@@ -24,8 +24,7 @@ from phframe.core import (
     Watch,
 )
 
-StallLag = Annotated[float, Field(gt=0.0, le=0.2)]
-"""How far the fingertip may fall behind its trajectory before it counts as stalled (m)."""
+Coefficient = Annotated[float, Field(ge=0.0, le=2.0)]
 
 
 class HasState(Protocol):
@@ -40,10 +39,22 @@ class JointOptions(Options):
     """What these engines have in common.
 
     Attributes:
+        step: Time step (s).
+        sleep: Whether what is at rest is passed over until something touches it; several times faster.
+        object_friction: Coulomb coefficient between objects.
+        arm_friction: Coulomb coefficient between the arm and all else.
+        turning_friction: Of a contact against turning on the spot (m).
+        rolling_friction: Of a contact against rolling (m).
         stall_lag: How far the fingertip may fall behind its trajectory before it counts as stalled (m).
     """
 
-    stall_lag: StallLag = 0.015
+    step: Annotated[float, Field(gt=0.0, le=0.005)] = 0.002
+    sleep: bool = True
+    object_friction: Coefficient = 0.2
+    arm_friction: Coefficient = 0.3
+    turning_friction: Annotated[float, Field(ge=0.0, le=0.1)] = 0.005
+    rolling_friction: Annotated[float, Field(ge=0.0, le=0.1)] = 0.0005
+    stall_lag: Annotated[float, Field(gt=0.0, le=0.2)] = 0.015
 
 
 OptionsT = TypeVar("OptionsT", bound=JointOptions)

@@ -16,43 +16,27 @@ from typing import Annotated, Literal
 import mujoco
 from pydantic import Field
 
-from phframe.backends.joint_physics import JointOptions, JointPhysics, StallLag
+from phframe.backends.joint_physics import JointOptions, JointPhysics
 from phframe.backends.mujoco_model import Controls, Model, build_model
 from phframe.backends.mujoco_shelf import Surfaces
 from phframe.backends.mujoco_snapshot import Snapshot, put_back, take_snapshot
 from phframe.backends.mujoco_world import World
 
-Coefficient = Annotated[float, Field(ge=0.0, le=2.0)]
-
 
 class MujocoOptions(JointOptions):
-    """Options of the MuJoCo backend.
+    """Options of the MuJoCo backend, besides those that all engines of joints have.
 
     Attributes:
-        step: Time step (s).
         cone: Of friction: ``elliptic`` is Coulomb's, ``pyramidal`` an approximation.
         friction_firmness: Stiffness of friction over that of contact (MuJoCo's impratio): less creep in the hand.
-        sleep: Whether what is at rest is passed over until something touches it; several times faster.
-        object_friction: Coulomb coefficient between objects.
-        arm_friction: Coulomb coefficient between the arm and all else.
-        turning_friction: Of a contact against turning on the spot (m).
-        rolling_friction: Of a contact against rolling (m).
         joint_give: Error at which a joint of the arm gives its whole effort (rad or m).
         finger_give: The same of a finger (m).
-        stall_lag: How far the fingertip may fall behind its trajectory before it counts as stalled (m).
     """
 
-    step: Annotated[float, Field(gt=0.0, le=0.005)] = 0.002
     cone: Literal["elliptic", "pyramidal"] = "elliptic"
     friction_firmness: Annotated[float, Field(ge=1.0, le=100.0)] = 3.0
-    sleep: bool = True
-    object_friction: Coefficient = 0.2
-    arm_friction: Coefficient = 0.3
-    turning_friction: Annotated[float, Field(ge=0.0, le=0.1)] = 0.005
-    rolling_friction: Annotated[float, Field(ge=0.0, le=0.1)] = 0.0005
     joint_give: Annotated[float, Field(gt=0.0, le=0.2)] = 0.01
     finger_give: Annotated[float, Field(gt=0.0, le=0.05)] = 0.002
-    stall_lag: StallLag = 0.015
 
 
 class MujocoPhysics(JointPhysics[MujocoOptions, World, Snapshot]):

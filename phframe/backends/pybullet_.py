@@ -34,39 +34,23 @@ from typing import Annotated
 
 from pydantic import Field
 
-from phframe.backends.joint_physics import JointOptions, JointPhysics, StallLag
+from phframe.backends.joint_physics import JointOptions, JointPhysics
 from phframe.backends.pybullet_bodies import Surfaces
 from phframe.backends.pybullet_snapshot import Snapshot, put_back, take_snapshot
 from phframe.backends.pybullet_urdf import PreparedUrdf, prepared_urdf
 from phframe.backends.pybullet_world import Engine, World
 
-Coefficient = Annotated[float, Field(ge=0.0, le=2.0)]
-
 
 class PybulletOptions(JointOptions):
-    """Options of the PyBullet backend.
+    """Options of the PyBullet backend, besides those that all engines of joints have.
 
     Attributes:
-        step: Time step (s).
         iterations: Of the contact solver in a step.
-        sleep: Whether what is at rest is passed over until something touches it; twice as fast.
-        object_friction: Coulomb coefficient between objects.
-        arm_friction: Coulomb coefficient between the arm and all else.
-        turning_friction: Of a contact against turning on the spot (m).
-        rolling_friction: Of a contact against rolling (m).
         joint_gain: Speed of a joint of the arm per error (1/s).
-        stall_lag: How far the fingertip may fall behind its trajectory before it counts as stalled (m).
     """
 
-    step: Annotated[float, Field(gt=0.0, le=0.005)] = 0.002
     iterations: Annotated[int, Field(ge=10, le=1000)] = 50
-    sleep: bool = True
-    object_friction: Coefficient = 0.2
-    arm_friction: Coefficient = 0.3
-    turning_friction: Annotated[float, Field(ge=0.0, le=0.1)] = 0.005
-    rolling_friction: Annotated[float, Field(ge=0.0, le=0.1)] = 0.0005
     joint_gain: Annotated[float, Field(gt=0.0, le=500.0)] = 60.0
-    stall_lag: StallLag = 0.015
 
 
 class PybulletPhysics(JointPhysics[PybulletOptions, World, Snapshot]):
