@@ -5,7 +5,7 @@
 TEST_EXTRAS ?= dev,rerun
 TEST_3D_EXTRAS ?= dev,mujoco,pybullet,ompl,baxter,meshes,video
 DEMO_EXTRAS ?= rerun
-BENCH_EXTRAS ?= dev,rerun,mujoco
+BENCH_EXTRAS ?= dev,rerun,mujoco,pybullet,ompl,baxter
 SCENE ?= vieira/basic
 3D := needs_mujoco or needs_pybullet or needs_ompl or needs_baxter or needs_meshes or needs_video
 PYTEST_FLAGS ?= --numprocesses=auto --benchmark-disable
