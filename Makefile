@@ -49,7 +49,7 @@ lint: $(call stamp,$(TEST_EXTRAS)) ## check style, types, layers and spelling
 	@$(VENV)/bin/codespell
 
 bench: $(call stamp,$(BENCH_EXTRAS)) ## measure planning and simulation against bare loops
-	@$(VENV)/bin/python -m phframe.bench
+	@$(VENV)/bin/python -m phframe.bench.meters
 
 clean: ## remove .venv and all caches, keep runs/
 	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks

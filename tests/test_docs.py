@@ -14,7 +14,7 @@ import typer
 
 import phframe
 from phframe import testing
-from phframe.bench.__main__ import command_line
+from phframe.bench.meters.__main__ import command_line
 from phframe.cli.export_formats import FORMATS
 from phframe.cli.main import app
 from phframe.cli.option_list import describe
@@ -198,7 +198,7 @@ def check_make(words: list[str]) -> None:
 
 
 def check_python(words: list[str]) -> None:
-    if words[:2] == ["-m", "phframe.bench"]:
+    if words[:2] == ["-m", "phframe.bench.meters"]:
         command_line().parse_args(words[2:])
     else:
         check_pip(words)

@@ -19,13 +19,13 @@ from pydantic import BaseModel
 
 import phframe
 from phframe import testing
-from phframe.arms.articulated_options import ArticulatedOptions
-from phframe.arms.description import ArmDescription, Section, Stand, TipFrame
+from phframe.motion.options import ArticulatedOptions
+from phframe.urdf.description import ArmDescription, Section, Stand, TipFrame
 from phframe.cli import exit_codes
 from phframe.cli.listing_data import listing
 from phframe.cli.option_list import describe
 from phframe.core import Condition, Episode, Phase, Status
-from phframe.pushing.choice import Choice
+from phframe.pushing.deviation import Choice
 from phframe.registry import Kind, builtin, create
 from phframe.registry.load import INTERFACES
 from phframe.runtime.summary import summarize

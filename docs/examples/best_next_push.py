@@ -5,7 +5,7 @@ from dataclasses import replace
 from phframe.core import Infeasible, Plan, Planner, Status, Task
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import usable_radii
-from phframe.pushing.situation import Pushing
+from phframe.pushing.push_problem import Pushing
 
 
 class BestNextPush(Planner[PushingOptions]):

@@ -1,1 +1,1 @@
-"""Arms: one file or folder per robot, each an ``ArmModel``."""
+"""Robot arms: one file or folder per robot, each an ``ArmModel``."""

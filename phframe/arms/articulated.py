@@ -12,14 +12,14 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from phframe.arms.articulated_options import ArticulatedOptions
-from phframe.arms.description import ArmDescription, Section, TipFrame, read_description
-from phframe.arms.description_check import check_description
+from phframe.motion.options import ArticulatedOptions
+from phframe.urdf.description import ArmDescription, Section, TipFrame, read_description
+from phframe.urdf.description_check import check_description
 from phframe.arms.outlines import gripper_outlines
-from phframe.arms.pinocchio_ import Kinematics
+from phframe.motion.pinocchio_ import Kinematics
 from phframe.arms.reach import share_served
-from phframe.arms.robot import with_frame
-from phframe.arms.urdf_reader import Robot, read_robot
+from phframe.urdf.model import with_frame
+from phframe.urdf.reader import Robot, read_robot
 from phframe.core import (
     ArmError,
     ArmModel,
@@ -137,7 +137,7 @@ class ArticulatedArm(ArmModel[OptionsT]):
                 "an arm needs boxes, cylinders or spheres instead"
             )
         try:
-            from phframe.arms.articulated_motion import ArticulatedMotionPlanner
+            from phframe.motion.articulated import ArticulatedMotionPlanner
         except ModuleNotFoundError as error:
             library = (error.name or "phframe").partition(".")[0]
             if library == "phframe":

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from phframe.arms.robot import Connection
-from phframe.arms.solids import Solid, rotation
-from phframe.arms.urdf_reader import Robot
+from phframe.urdf.model import Connection
+from phframe.urdf.solids import Solid, rotation
+from phframe.urdf.reader import Robot
 from phframe.core import FloatArray, Outline
 
 SIDES = (1, -1)

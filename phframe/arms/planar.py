@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from pydantic import Field
 
-from phframe.arms.planar_motion import PlanarMotionOptions, PlanarMotionPlanner
-from phframe.arms.urdf import planar_urdf
+from phframe.motion.planar import PlanarMotionOptions, PlanarMotionPlanner
+from phframe.urdf.planar import planar_urdf
 from phframe.core import (
     ArmError,
     ArmModel,

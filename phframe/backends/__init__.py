@@ -1,1 +1,1 @@
-"""Physics engines: one ``Physics`` per engine, in a module named after it with a trailing underscore."""
+"""Physics engines: one package per engine, named after it, and what engines of joints share."""

@@ -135,7 +135,7 @@ def _scene_text(scene: Scene, wanted: Wanted, form: Format) -> str:
     if wanted.arm is None:
         return text
     require("mujoco", "an arm in MJCF", "mujoco")
-    from phframe.backends.mujoco_export import with_arm
+    from phframe.backends.mujoco_.export import with_arm
 
     arm, mount = _arm(scene, wanted)
     return with_arm(text, arm, mount)

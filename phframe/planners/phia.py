@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from phframe.core import FloatArray, Plan, Planner, Task
-from phframe.pushing.choice import Choice
+from phframe.pushing.deviation import Choice
 from phframe.pushing.clear import Clearing
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import usable_radii

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from phframe.core import Action, Decision, FloatArray, Infeasible, Plan, State, Status, Task, Transition
-from phframe.pushing.choice import Choice
+from phframe.pushing.deviation import Choice
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.outcome import grasp_outcome
 from phframe.pushing.reach import Grasp
-from phframe.pushing.situation import Pushing, Situation
+from phframe.pushing.push_problem import Pushing, Situation
 
 UNCHANGED = 1e-3
 """No object moved more than this (m): the action failed."""

@@ -24,8 +24,8 @@ from phframe.core import (
     State,
     turn,
 )
-from phframe.pushing.arm_view import ArmView
-from phframe.pushing.choice import Choice
+from phframe.geometry.arm_view import ArmView
+from phframe.pushing.deviation import Choice
 from phframe.pushing.options import PushingOptions
 
 YAW_STEPS = tuple(math.radians(degrees) for degrees in (0, 5, -5, 10, -10, 15, -15))

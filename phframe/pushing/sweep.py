@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from phframe.core import Corridor, FloatArray
-from phframe.pushing.arm_view import ArmView
-from phframe.pushing.choice import Choice
+from phframe.geometry.arm_view import ArmView
+from phframe.pushing.deviation import Choice
 from phframe.pushing.grouping import bounding_rectangle
 from phframe.pushing.reach import LEAST_AHEAD
 from phframe.pushing.tilted_sweep import Choices, Component, Direction, Push, TiltedSweep

@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 
 from phframe.core import MOUTH_CLEARANCE, Corridor, FloatArray, Rectangle, Sweep, turn
-from phframe.pushing.arm_view import ArmView
-from phframe.pushing.choice import Choice
+from phframe.geometry.arm_view import ArmView
+from phframe.pushing.deviation import Choice
 from phframe.pushing.reach import distances_on_way_in
 
 Direction = Literal[1, -1]

@@ -18,20 +18,20 @@ EXTENSIONS = [
     Extension(
         Kind.BACKEND,
         "pymunk",
-        "phframe.backends.pymunk_:PymunkPhysics",
+        "phframe.backends.pymunk_.physics:PymunkPhysics",
         "The shelf from above, in 2D, with Coulomb friction: fast",
     ),
     Extension(
         Kind.BACKEND,
         "mujoco",
-        "phframe.backends.mujoco_:MujocoPhysics",
+        "phframe.backends.mujoco_.physics:MujocoPhysics",
         "The shelf in 3D with MuJoCo: objects tip, roll and fall, the arm is moved by its joints",
         extra="mujoco",
     ),
     Extension(
         Kind.BACKEND,
         "pybullet",
-        "phframe.backends.pybullet_:PybulletPhysics",
+        "phframe.backends.pybullet_.physics:PybulletPhysics",
         "The shelf in 3D with PyBullet: a second opinion on MuJoCo's",
         extra="pybullet",
     ),

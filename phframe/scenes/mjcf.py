@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Sequence
 
 from phframe.core import Scene, SceneObject, Shelf, coulomb_with_board
-from phframe.core.slabs import PANEL, slabs
+from phframe.geometry.slabs import PANEL, slabs
 
 TARGET_KEY = "target"
 """Of the custom text that names the target's body."""

@@ -14,7 +14,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping, Sequence
 
 from phframe.core import Scene, SceneObject, coulomb_with_board
-from phframe.core.slabs import PANEL, Slab, slabs
+from phframe.geometry.slabs import PANEL, Slab, slabs
 
 FORMAT = 1
 """Of the list of parts."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from phframe.arms.baxter import Baxter, BaxterOptions
 from phframe.arms.baxter.model import SIDES, Side
-from phframe.arms.solids import rotation
+from phframe.urdf.solids import rotation
 from phframe.core import FloatArray
 
 __all__ = ["GOLDEN", "SIDES", "as_matrix", "baxter", "fingertip"]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pinocchio
 
-from phframe.arms.solids import Solid, rotation
-from phframe.arms.urdf_reader import read_robot
+from phframe.urdf.solids import Solid, rotation
+from phframe.urdf.reader import read_robot
 from phframe.core import ArmModel, FloatArray, Mount, compose, inverse
 
 

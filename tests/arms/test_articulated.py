@@ -12,8 +12,8 @@ from ruamel.yaml import YAML
 pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
 
 from phframe.arms.articulated import DescribedArm, DescribedArmOptions
-from phframe.arms.robot import Connection, Link, robot_urdf
-from phframe.arms.solids import Solid, of_solids
+from phframe.urdf.model import Connection, Link, robot_urdf
+from phframe.urdf.solids import Solid, of_solids
 from phframe.core import (
     ArmError,
     Cylinder,
@@ -214,7 +214,7 @@ def test_the_example_solves_a_scene_by_its_joints() -> None:
 @pytest.mark.needs_ompl
 def test_closed_fingers_may_touch_one_another() -> None:
     pytest.importorskip("ompl")
-    from phframe.arms.coal_ import CollisionModel
+    from phframe.motion.coal_ import CollisionModel
 
     example = DescribedArm(DescribedArmOptions())
     names, fingers = example.description.joints, example.description.fingers

@@ -13,7 +13,7 @@ pytest.importorskip("collada", reason="needs the extra 'meshes'")
 
 from phframe.arms.baxter import meshes
 from phframe.arms.baxter.model import Side
-from phframe.arms.urdf_reader import read_robot
+from phframe.urdf.reader import read_robot
 from phframe.core import ArmError, FloatArray
 from tests.arms.baxter_arm import SIDES, baxter
 

@@ -12,8 +12,8 @@ pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
 
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import Side
-from phframe.arms.solids import Solid
-from phframe.arms.urdf_reader import read_robot
+from phframe.urdf.solids import Solid
+from phframe.urdf.reader import read_robot
 from phframe.core import FloatArray, Shelf
 from tests.arms.baxter_arm import SIDES, baxter
 from tests.arms.covers import Covers

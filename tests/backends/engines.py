@@ -70,7 +70,7 @@ def set_moving(backend: Any, row: int, velocity: Any) -> None:
     if world.engine == "mujoco":
         world.data.qvel[world.model.moving[row][:3]] = velocity
     else:
-        from phframe.backends.pybullet_quiet import bullet
+        from phframe.backends.pybullet_.output_capture import bullet
 
         straight = np.asarray(velocity, dtype=float).tolist()
         bullet.resetBaseVelocity(world._bodies.objects[row], straight, [0.0] * 3, physicsClientId=world.client)

@@ -151,7 +151,7 @@ def test_joints_that_are_none_of_the_arm_stay_where_they_are() -> None:
 
 
 def _values_by_name(world: Any) -> dict[str, float]:
-    from phframe.backends.pybullet_quiet import bullet
+    from phframe.backends.pybullet_.output_capture import bullet
 
     body, client = world._loaded.body, {"physicsClientId": world.client}
     names = (bullet.getJointInfo(body, joint, **client)[1].decode() for joint in world._loaded.movable)
@@ -220,7 +220,7 @@ def test_two_backends_do_not_meet() -> None:
 
 SPEAKS = """
 import os, ctypes
-from phframe.backends.pybullet_quiet import caught_output
+from phframe.backends.pybullet_.output_capture import caught_output
 print("before")
 with caught_output() as said:
     print("inside")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.backends.pymunk_ import PymunkOptions, PymunkPhysics
+from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
 from phframe.core import JointTrajectory, OptionError
 from phframe.testing import PHYSICS_CHECKS, PhysicsUnderTest
 from phframe.testing.physics.paths import CROWD_SWEEP, MIDDLE, crowd, cylinder, drive_in, scene_of

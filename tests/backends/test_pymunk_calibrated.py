@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.backends.pymunk_ import PymunkOptions, PymunkPhysics
-from phframe.backends.pymunk_pace import Pace, pace
+from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
+from phframe.backends.pymunk_.braking import Pace, pace
 from phframe.core import Action, Contacts, Cylinder, GripperPath, Phase, PhaseRule, Scene, SceneObject, Shelf, Watch
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.world import WorldSpec

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from phframe.backends.pymunk_ import PymunkOptions, PymunkPhysics
+from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
 from phframe.core import (
     ArmModel,
     Condition,

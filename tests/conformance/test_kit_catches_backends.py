@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.backends.pymunk_ import PymunkOptions, PymunkPhysics
+from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
 from phframe.core import ArmModel, Condition, InputError, Mount, Scene, State
 from phframe.testing import PHYSICS_CHECKS, Check, ConformanceError, PhysicsUnderTest, check_physics
 from phframe.testing.physics.paths import crowd

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.backends.pymunk_ import PymunkOptions, PymunkPhysics
-from phframe.backends.pymunk_snapshot import Snapshot
+from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
+from phframe.backends.pymunk_.snapshot import Snapshot
 from phframe.core import (
     ArmModel,
     FloatArray,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cache
 
-from phframe.bench.outcomes import Outcome, run_suite
+from phframe.bench.meters.outcomes import Outcome, run_suite
 from phframe.core import Corridor, Decision, Episode, Plan, Scene, State
 from phframe.runtime.scenes import scene_names
 

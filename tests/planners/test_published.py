@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from phframe.bench.outcomes import tally, was_cleared
+from phframe.bench.meters.outcomes import tally, was_cleared
 from phframe.core import Condition, Status
-from phframe.pushing.choice import Choice
+from phframe.pushing.deviation import Choice
 from phframe.pushing.corridor import find_corridor
 from phframe.pushing.persistence import persistent_radii
 from tests.planners.solved import PLANNERS, PUBLISHED, episodes, outcomes, pushes

@@ -9,10 +9,10 @@ from hypothesis import assume
 from hypothesis import strategies as st
 
 from phframe.core import Corridor, FloatArray, Outline, Shelf
-from phframe.pushing.arm_view import ArmView
+from phframe.geometry.arm_view import ArmView
 from phframe.pushing.corridor import find_corridor
 from phframe.pushing.grouping import bounding_rectangle
-from phframe.pushing.situation import WALL_CLEARANCE
+from phframe.pushing.push_problem import WALL_CLEARANCE
 from phframe.pushing.sweep import SweepGeometry
 from phframe.pushing.tilted_sweep import Component, Direction, Push, TiltedSweep
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS

@@ -23,7 +23,7 @@ from phframe.core import (
     Transition,
 )
 from phframe.planners.ooa import OOA
-from phframe.pushing.choice import Choice
+from phframe.pushing.deviation import Choice
 from phframe.pushing.options import PushingOptions
 from phframe.topology.single_linkage import SingleLinkage
 from tests.pushing.parts import ARM, scene_of

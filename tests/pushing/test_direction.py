@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 
 from phframe.core import Corridor, Shelf
-from phframe.pushing.arm_view import ArmView
-from phframe.pushing.choice import Choice
+from phframe.geometry.arm_view import ArmView
+from phframe.pushing.deviation import Choice
 from phframe.pushing.sweep import SweepGeometry
 from phframe.pushing.tilted_sweep import Push
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, often

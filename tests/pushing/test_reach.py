@@ -23,7 +23,7 @@ from phframe.core import (
     Scene,
     State,
 )
-from phframe.pushing.choice import Choice
+from phframe.pushing.deviation import Choice
 from phframe.pushing.corridor import find_corridor
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.reach import FITS, NEIGHBOUR_CLEARANCE, YAW_STEPS, Grasp, grasp_action

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phframe.core import FloatArray, Outline, Shelf
-from phframe.pushing.choice import Choice
-from phframe.pushing.situation import WALL_CLEARANCE
+from phframe.pushing.deviation import Choice
+from phframe.pushing.push_problem import WALL_CLEARANCE
 from phframe.pushing.sweep import TILTS
 from phframe.pushing.tilted_sweep import Direction, Push
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, boundary, gap_to_walls, gaps_to_points, highest, often, posed

@@ -60,7 +60,7 @@ def test_a_scene_of_odd_names_and_figures_comes_back_but_for_names_that_mujoco_c
 
 def test_an_arm_in_it_is_ignored(imported: Import) -> None:
     from phframe.arms.planar import PlanarArm, PlanarArmOptions
-    from phframe.backends.mujoco_export import with_arm
+    from phframe.backends.mujoco_.export import with_arm
 
     scene, arm = find_scene("papallas/s02"), PlanarArm(PlanarArmOptions())
     back = imported(with_arm(scene_to_mjcf(scene), arm, arm.default_mount(scene.shelf)))

@@ -110,8 +110,8 @@ def test_an_arm_stands_parked_at_its_mount_and_holds_still(name: str) -> None:
     mujoco = pytest.importorskip("mujoco")
     if name == "baxter":
         pytest.importorskip("pinocchio")
-    from phframe.backends.mujoco_arm import PREFIX
-    from phframe.backends.mujoco_export import HOME, with_arm
+    from phframe.backends.mujoco_.arm import PREFIX
+    from phframe.backends.mujoco_.export import HOME, with_arm
     from phframe.core import compose
     from phframe.registry import Kind, create
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from phframe.arms.articulated import ArticulatedArm
-from phframe.arms.articulated_options import ArticulatedOptions
+from phframe.motion.options import ArticulatedOptions
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import SIDES, Side, arm_joints, baxter_urdf, fingers, mirrored
-from phframe.arms.description import ArmDescription, Section, Stand
+from phframe.urdf.description import ArmDescription, Section, Stand
 from phframe.core import LinkMesh
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from phframe.arms.solids import Inertia, Solid, Vector
+from phframe.urdf.solids import Inertia, Solid, Vector
 
 RIGHT_ANGLE = pi / 2.0
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import SIDES, TIP, Side, fingers
-from phframe.arms.solids import ORIGIN, Vector, rotation
+from phframe.urdf.solids import ORIGIN, Vector, rotation
 from phframe.core import ArmError, FloatArray, LinkMesh
 
 PACKAGE = "example-robot-data"

@@ -10,8 +10,8 @@ from typing import Literal
 import numpy as np
 
 from phframe.arms.baxter import figures
-from phframe.arms.robot import Connection, Link, robot_urdf
-from phframe.arms.solids import ORIGIN, Inertia, Solid, Vector, of_solids, rotation, together
+from phframe.urdf.model import Connection, Link, robot_urdf
+from phframe.urdf.solids import ORIGIN, Inertia, Solid, Vector, of_solids, rotation, together
 from phframe.core import Fingers, Joint
 
 Side = Literal["left", "right"]

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from phframe.core import Action, Decision, Infeasible, Plan, Planner, State, Status, Task
-from phframe.pushing.choice import Choice
+from phframe.pushing.deviation import Choice
 from phframe.pushing.clear import UNCHANGED
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.outcome import grasp_outcome
-from phframe.pushing.situation import Pushing, Situation
+from phframe.pushing.push_problem import Pushing, Situation
 
 Proposal = tuple[Decision, Action]
 

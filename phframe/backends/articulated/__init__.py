@@ -1,0 +1,1 @@
+"""What physics engines that drive an arm by its joints share."""

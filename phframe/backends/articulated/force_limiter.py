@@ -1,0 +1,76 @@
+"""Keeps the arm from pressing harder than it may."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from phframe.backends.articulated.world import JointWorld
+from phframe.core import FloatArray
+
+LEVER = 1.0
+"""A joint that turns pushes at no more than this distance (m); one that slides pushes directly."""
+HASTE = 2.0
+"""Acceleration (rad/s^2 or m/s^2) for which a joint keeps effort besides what the limit takes."""
+LEAST = 0.05
+"""Share of its effort that a joint keeps in any case, to hold itself."""
+BRAKE = 1.5
+"""Share of the limit above which the arm brakes."""
+RECOVERY = 1.3
+"""Factor by which joints get back their effort in every control step in which the force is below the limit."""
+
+
+class Limiter:
+    """Takes effort from the joints while the arm touches something, and more while it presses harder than its limit.
+
+    What a contact takes, the joints give: with their torques scaled down by limit over force, the force is the limit.
+    Gravity is compensated apart from that, so the arm does not sag.
+
+    Args:
+        world: Whose arm.
+        limit: Of the net contact force (N).
+    """
+
+    def __init__(self, world: JointWorld, limit: float) -> None:
+        self._world, self._limit = world, limit
+        self._effort = np.array([joint.effort for joint in world.arm.joints])
+        self._pushing = np.minimum(self._effort, limit * LEVER + world.inertias * HASTE)
+        self._least = LEAST * self._effort
+        self._caps: FloatArray | None = self._least
+        self.release()
+
+    def heed(self, force: float, *, touched: bool) -> bool:
+        """Take or give back effort, after a control step.
+
+        Args:
+            force: On the arm, as the step ended (N).
+            touched: Whether the arm has touched anything of late; what is hit may part from it for a moment.
+
+        Returns:
+            Whether the arm must brake with all it has: something hit hard takes the arm's momentum, too.
+        """
+        if force > BRAKE * self._limit:
+            self.release()
+            self._caps = self._least
+            return True
+        if force > self._limit:
+            self._take(np.minimum(self._allowed, self._world.given * (self._limit / force)))
+        elif not touched:
+            self.release()
+        elif self._caps is not self._pushing:
+            more = self._allowed * RECOVERY
+            self._take(self._pushing if (more >= self._pushing).all() else np.minimum(more, self._pushing))
+        return False
+
+    def release(self) -> None:
+        """Give all joints their whole effort."""
+        if self._caps is not None:
+            self._world.cap(self._effort)
+            self._caps = None
+
+    @property
+    def _allowed(self) -> FloatArray:
+        return self._effort if self._caps is None else self._caps
+
+    def _take(self, caps: FloatArray) -> None:
+        self._caps = caps if caps is self._pushing else np.maximum(caps, self._least)
+        self._world.cap(self._caps)

@@ -1,0 +1,1 @@
+"""Physics in 3D with PyBullet."""

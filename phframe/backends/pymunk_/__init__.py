@@ -1,0 +1,1 @@
+"""Physics in the plane with pymunk."""

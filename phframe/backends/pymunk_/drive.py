@@ -1,0 +1,270 @@
+"""Drives the arm of a pymunk world along one trajectory and tells what happened."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+import numpy as np
+
+from phframe.backends.pymunk_.gripper import between_fingers, gripped, hold, place_arm, place_held, release, set_opening
+from phframe.backends.pymunk_.braking import Pace, pace
+from phframe.backends.pymunk_.fast_forward import free_share, is_still, stays_outside
+from phframe.backends.pymunk_.report import motion_of
+from phframe.backends.pymunk_.state import is_calm, read_state, refuse_divergence, spill
+from phframe.backends.pymunk_.world import ShelfSpace, note_contact, overlap
+from phframe.core import FORCE_WINDOW, FloatArray, GripperTrajectory, InputError, Motion, Phase, Settle, Stop, Watch
+
+STRETCH = 30
+"""Steps between looks at what has left the board and whether all is still again: 1/8 s at the default step."""
+CALM_CHECK = 6
+"""Steps between looks at whether all is at rest."""
+START_POSITION, START_YAW = 2e-3, 1e-2
+"""How far from the arm (m, rad) a trajectory may begin."""
+EASE_SPEED, EASE_STEPS, EASE_CHECK, EASED = 0.05, 60, 4, 1e-5
+"""How fast (m/s), for how many steps, looking how often, and down to which overlap (m) a stalled arm gives way."""
+SATURATED = 0.999
+"""Share of the force limit at which the drive has nothing left to give."""
+
+
+class Drive:
+    """One run along one trajectory: made, run once and dropped.
+
+    Args:
+        world: What moves. A parked arm is put at the trajectory's beginning.
+        trajectory: Where the fingertip goes.
+        step: Time step (s).
+        stall_lag: How far the arm may fall behind before it counts as stalled (m).
+        acceleration: With which the arm brakes at the end of each leg (m/s^2); None: it stops dead.
+        stop: When to end early.
+        watch: Who looks on.
+    """
+
+    def __init__(
+        self,
+        world: ShelfSpace,
+        trajectory: GripperTrajectory,
+        *,
+        step: float,
+        stall_lag: float,
+        acceleration: float | None,
+        stop: Stop | None,
+        watch: Watch | None,
+    ) -> None:
+        self._world, self._trajectory, self._step = world, trajectory, step
+        self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
+        self._acceleration = acceleration
+        self._ticks = np.rint(trajectory.times / step).astype(int).tolist()
+        window = max(1, round(FORCE_WINDOW / step))
+        self._impulses: deque[float] = deque([0.0] * window, window)
+        self._period = None if watch is None else max(1, round(watch.period / step))
+        self._full_impulse = trajectory.force_limit * step * SATURATED
+        self.lag = self.force = 0.0
+        self.stalled, self.settled = False, True
+        self.cause: str | None = None
+
+    def run(self, settle: Settle | None) -> Motion:
+        """Follow the trajectory, then wait for rest."""
+        world = self._world
+        self._begin()
+        for leg in range(len(self._trajectory.phases)):
+            if self._ticks[leg + 1] > world.tick and not self._ended:
+                self._follow(leg)
+        followed = world.tick
+        self._halt()
+        if settle is not None:
+            self._settle(settle)
+        self._look(always=True)
+        return motion_of(self, world, self._trajectory, self._step, followed)
+
+    @property
+    def _ended(self) -> bool:
+        return self.stalled or self.cause is not None
+
+    def _begin(self) -> None:
+        """Put a parked arm where the trajectory begins, and pass over the time in which nothing can happen."""
+        world, trajectory = self._world, self._trajectory
+        world.tick = 0
+        world.touched.clear()
+        world.arm.drive.max_force = trajectory.force_limit
+        if world.parked:
+            place_arm(world, trajectory.poses[0])
+            set_opening(world, float(trajectory.openings[0]))
+        _refuse_jump(world, trajectory.poses[0])
+        self._look(always=True)
+
+    def _follow(self, leg: int) -> None:
+        """Drive the carrier along a leg, passing over what is free while all is still."""
+        world, trajectory, end = self._world, self._trajectory, self._ticks[leg + 1]
+        world.arm.body.each_arbiter(note_contact, world.space, world)
+        if trajectory.openings[leg] != trajectory.openings[leg + 1]:
+            self._open_or_close(leg, end)
+        pace = self._pace(leg, end - world.tick)
+        while world.tick < end and not self._ended:
+            if world.tick < end - pace.braking:
+                self._pass_over(leg, end, pace)
+            if world.tick < end:
+                self._drive(leg, end, pace)
+        refuse_divergence(world)
+
+    def _pace(self, leg: int, steps: int) -> Pace:
+        """How to come to rest at the end of a leg."""
+        if self._acceleration is None or steps <= 0:
+            return Pace()
+        x, y, _ = self._trajectory.poses[leg + 1] - self._trajectory.poses[leg]
+        return pace(math.hypot(x, y), steps, self._acceleration * self._step**2)
+
+    def _pass_over(self, leg: int, end: int, pace: Pace) -> None:
+        """Put the arm as far along a leg as nothing can happen, showing it on the way to whoever looks on."""
+        world, target = self._world, self._trajectory.poses[leg + 1]
+        if not (world.at_rest or is_still(world)):
+            return
+        start = np.array([*world.arm.carrier.position, world.arm.carrier.angle])
+        held = None if world.held is None else np.array(world.items[world.held].body.position)
+        begin, work = world.tick, pace.work(end - world.tick)
+        share = free_share(world, start, target)
+        free = end - begin if share >= 1.0 else min(math.floor(share * work), end - begin - pace.braking)
+        self._impulses.extend([0.0] * min(free, len(self._impulses)))
+        for world.tick in self._stops(begin, begin + free):
+            way = (target - start) * (1.0 - pace.work(end - world.tick) / work)
+            place_arm(world, start + way)
+            if held is not None:
+                place_held(world, held + way[:2])
+            self._look()
+
+    def _stops(self, begin: int, end: int) -> list[int]:
+        """The steps, after the first, at which somebody looks on, and the last."""
+        if self._period is None or end == begin:
+            return [end] if end > begin else []
+        first = (begin // self._period + 1) * self._period
+        return [*range(first, end, self._period), end]
+
+    def _drive(self, leg: int, end: int, pace: Pace) -> None:
+        """Step along a leg as long as the speed stays, looking after the arm on the way."""
+        world, left = self._world, end - self._world.tick
+        self._set_speed(self._trajectory.poses[leg + 1], pace.steps(left) * self._step)
+        world.at_rest = False
+        self._advance(world.tick + min(STRETCH, max(left - pace.braking, 1)))
+        spill(world)
+
+    def _open_or_close(self, leg: int, end: int) -> None:
+        """Move the fingers along a leg, until they hold something; before the mouth, where they meet nothing, at once."""
+        world, trajectory, begin = self._world, self._trajectory, self._world.tick
+        first, last = (float(opening) for opening in trajectory.openings[leg : leg + 2])
+        if world.at_rest and stays_outside(world, trajectory.poses[leg], trajectory.poses[leg + 1]):
+            set_opening(world, last)
+            return
+        if world.held is not None and last <= world.opening:
+            world.command = last
+            return
+        if world.held is not None:
+            release(world)
+        within_reach = between_fingers(world) if trajectory.phases[leg] is Phase.GRASP else []
+        self._set_speed(trajectory.poses[leg + 1], (end - begin) * self._step)
+        world.at_rest = False
+        while world.tick < end and not self._ended:
+            if (item := gripped(world, within_reach)) is not None:
+                hold(world, item, last)
+                return
+            set_opening(world, first + (last - first) * ((world.tick + 1 - begin) / (end - begin)))
+            self._advance(world.tick + 1)
+
+    def _set_speed(self, target: FloatArray, duration: float) -> None:
+        """Make the carrier arrive at a pose in time; the drive need not accelerate the arm itself."""
+        carrier, body = self._world.arm.carrier, self._world.arm.body
+        x, y = carrier.position
+        carrier.velocity = (float(target[0]) - x) / duration, (float(target[1]) - y) / duration
+        carrier.angular_velocity = (float(target[2]) - carrier.angle) / duration
+        body.velocity, body.angular_velocity = carrier.velocity, carrier.angular_velocity
+
+    def _advance(self, end: int) -> None:
+        """Step until a number of steps or an end, and keep the mean force of the last 20 ms; the hot path."""
+        world, step, dt, drive = self._world, self._world.space.step, self._step, self._world.arm.drive
+        impulses, touched, begin = self._impulses, len(world.touched), world.tick
+        total, window = sum(impulses), len(impulses)
+        for world.tick in range(begin + 1, end + 1):
+            step(dt)
+            impulse = drive.impulse
+            total += impulse - impulses[0]
+            impulses.append(impulse)
+            if impulse > 0.0:
+                self._weigh(total / window)
+            if self._period is not None:
+                self._look()
+            if len(world.touched) > touched and self._stop is not None:
+                self.cause = self.cause or _touch(self._stop, world)
+            if self.stalled or self.cause is not None:
+                return
+
+    def _weigh(self, mean: float) -> None:
+        """Note the mean impulse of a step; where the drive gives all it has, see whether the arm still follows."""
+        self.force = max(self.force, mean / self._step)
+        if mean >= self._full_impulse:
+            self._note_lag()
+        if self._stop is not None and self._stop.force is not None and mean / self._step > self._stop.force:
+            self.cause = self.cause or f"a force of {mean / self._step:.0f} N"
+
+    def _note_lag(self) -> None:
+        """The drive gives all it has: see how far the arm is behind, and whether that is a stall."""
+        arm = self._world.arm
+        lag = arm.body.position.get_distance(arm.carrier.position)
+        self.lag = max(self.lag, lag)
+        self.stalled = self.stalled or lag > self._stall_lag
+
+    def _halt(self) -> None:
+        """Stand still, and where the arm could not follow, forget where it should have been."""
+        arm = self._world.arm
+        if self.stalled:
+            self._ease_off()
+            self.stalled = True
+        arm.carrier.velocity = arm.body.velocity = 0.0, 0.0
+        arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
+        if self._ended:
+            arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
+        spill(self._world)
+
+    def _ease_off(self) -> None:
+        """Give way, back along where the arm came from, while what it pressed together comes apart again."""
+        arm, world = self._world.arm, self._world
+        self.stalled = False
+        x, y = arm.carrier.velocity
+        slow = EASE_SPEED / max(math.hypot(x, y), EASE_SPEED)
+        arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
+        arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
+        until = world.tick + EASE_STEPS
+        while world.tick < until:
+            share = slow if overlap(world) > EASED else 0.0
+            arm.carrier.velocity = arm.body.velocity = -share * x, -share * y
+            self._advance(world.tick + EASE_CHECK)
+
+    def _settle(self, settle: Settle) -> None:
+        """Wait until everything has been calm for long enough."""
+        world = self._world
+        world.at_rest = world.at_rest or is_still(world)
+        calm, limit = 0, world.tick + math.ceil(settle.timeout / self._step)
+        while calm * self._step < settle.hold and world.tick < limit and not world.at_rest:
+            self._advance(world.tick + CALM_CHECK)
+            refuse_divergence(world)
+            spill(world)
+            calm = calm + CALM_CHECK if is_calm(world, settle.speed) else 0
+        world.at_rest = self.settled = world.at_rest or calm * self._step >= settle.hold
+
+    def _look(self, *, always: bool = False) -> None:
+        """Show the world to whoever looks on, once in every period."""
+        if self._watch is not None and (always or self._world.tick % (self._period or 1) == 0):
+            self._watch.look(self._world.tick * self._step, read_state(self._world))
+
+
+def _refuse_jump(world: ShelfSpace, pose: FloatArray) -> None:
+    x, y = world.arm.body.position
+    distance, turn = math.hypot(pose[0] - x, pose[1] - y), abs(float(pose[2]) - world.arm.body.angle)
+    if distance > START_POSITION or turn > START_YAW:
+        raise InputError(f"the trajectory begins {distance:.3f} m and {turn:.3f} rad from where the arm is")
+
+
+def _touch(stop: Stop, world: ShelfSpace) -> str | None:
+    """What the arm touches that ends the motion, if anything does."""
+    for _, _, name, wall in world.touched:
+        if (wall and stop.wall) or name in stop.bodies:
+            return f"contact with {'the ' if wall else ''}{name}"
+    return None

@@ -1,0 +1,88 @@
+"""The gripper of the pymunk world: fingers that move, and what they hold."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pymunk
+
+from phframe.backends.pymunk_.world import Item, ShelfSpace
+from phframe.core import FloatArray
+
+TOUCH = 5e-4
+"""A finger this near (m) to an object touches it."""
+
+
+def place_arm(world: ShelfSpace, pose: FloatArray) -> None:
+    """Put the arm at a fingertip pose ``(3,)``, at rest; only where nothing is in the way."""
+    for body in (world.arm.body, world.arm.carrier):
+        body.position = float(pose[0]), float(pose[1])
+        body.angle = float(pose[2])
+        body.velocity = 0.0, 0.0
+        body.angular_velocity = 0.0
+    world.parked = False
+
+
+def place_held(world: ShelfSpace, position: FloatArray) -> None:
+    """Put what is held at a position ``(2,)``, at rest, with the turn it has."""
+    held = world.items[world.held or ""].body
+    held.position = float(position[0]), float(position[1])
+    held.velocity, held.angular_velocity = (0.0, 0.0), 0.0
+
+
+def set_opening(world: ShelfSpace, opening: float) -> None:
+    """Put the fingers ``opening`` (m) apart."""
+    if opening == world.opening:
+        return
+    shift = (opening - world.measures.min_opening) / 2.0
+    for finger in world.arm.fingers:
+        finger.polygon.unsafe_set_vertices([(x, y + finger.side * shift) for x, y in finger.corners])
+    world.opening = world.command = opening
+
+
+def between_fingers(world: ShelfSpace) -> list[Item]:
+    """The objects whose centres lie between the open fingers."""
+    return [item for item in world.items.values() if all(gap >= 0.0 for gap in _gaps(world, item))]
+
+
+def gripped(world: ShelfSpace, items: Sequence[Item]) -> Item | None:
+    """Which of some objects both fingers touch, if any does."""
+    for item in items:
+        gaps = _gaps(world, item)
+        if gaps and all(gap <= item.radius + TOUCH for gap in gaps):
+            return item
+    return None
+
+
+def _gaps(world: ShelfSpace, item: Item) -> list[float]:
+    """Distance from each finger's inner face to an object's centre (m); negative where it is not beside the finger."""
+    x, y = world.arm.body.world_to_local(item.body.position)
+    half = world.opening / 2.0
+    return [half - f.side * y if f.back <= x <= f.front else -1.0 for f in world.arm.fingers]
+
+
+def hold(world: ShelfSpace, item: Item, command: float) -> None:
+    """Join an object to the gripper: it leaves the board and goes where the gripper goes.
+
+    Args:
+        world: Where.
+        item: What.
+        command: The opening that the fingers go on being told to have (m), and squeeze for.
+    """
+    world.space.remove(*item.floor)
+    item.shape.filter = pymunk.ShapeFilter(group=1)
+    grip = (
+        pymunk.PivotJoint(world.arm.body, item.body, (item.body.position.x, item.body.position.y)),
+        pymunk.GearJoint(world.arm.body, item.body, item.body.angle - world.arm.body.angle, 1.0),
+    )
+    world.space.add(*grip)
+    world.grip, world.held, world.command = grip, item.name, command
+
+
+def release(world: ShelfSpace) -> None:
+    """Let go of what is held: it stands on the board again."""
+    item = world.items[world.held or ""]
+    world.space.remove(*world.grip)
+    world.space.add(*item.floor)
+    item.shape.filter = pymunk.ShapeFilter()
+    world.grip, world.held = (), None

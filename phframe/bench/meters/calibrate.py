@@ -1,0 +1,133 @@
+"""Fits pymunk to MuJoCo: which options of the 2D backend predict best what sweeps do in space.
+
+The fit sees sweeps in random scenes of some seeds. It is judged by sweeps that it has not seen: those of other seeds, and
+the first of each published scene. A value is moved to a neighbour on its grid only where that improves the fit by more than a
+few percent, so that coefficients that MuJoCo has too stay what they are unless there is a reason.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from phframe.bench.meters.sweeps import Score, Sweep, compare, outcomes, planned_sweeps, score
+from phframe.core import State
+from phframe.runtime.solve import PLAN_OPTIONS
+
+Values = Mapping[str, float | None]
+GRID: Mapping[str, tuple[float | None, ...]] = {
+    "standing_radius": (None, 1 / 3, 1 / 2, 2 / 3, 5 / 6, 1.0),
+    "arm_acceleration": (None, 40.0, 20.0, 10.0, 5.0),
+    "object_friction": (0.1, 0.15, 0.2, 0.25, 0.3),
+    "arm_friction": (0.2, 0.25, 0.3, 0.35, 0.4),
+}
+"""What is fitted, and the values looked at; what is fitted first stands first."""
+BEFORE: Values = {"standing_radius": None, "arm_acceleration": None, "object_friction": 0.2, "arm_friction": 0.3}
+"""Where the fit starts: the backend's defaults."""
+GAIN = 0.03
+"""A value that improves the fit by less than this share is not worth having."""
+CROWDS = (6, 10, 14, 18)
+"""Numbers of obstacles in the random scenes, in turns."""
+ROUNDS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """A set of sweeps, as pymunk predicts them with some options.
+
+    Attributes:
+        sweeps: What they are called.
+        before: With the backend's defaults.
+        fitted: With what was fitted.
+        shipped: With what ``solve`` uses where MuJoCo carries plans out.
+    """
+
+    sweeps: str
+    before: Score
+    fitted: Score
+    shipped: Score
+
+
+@dataclass(frozen=True, slots=True)
+class Calibration:
+    """The fit.
+
+    Attributes:
+        fitted: The values found.
+        shipped: The values that ``solve`` uses.
+        tried: How often the sweeps it was fitted to were predicted.
+        judged: How well each set of sweeps is predicted.
+    """
+
+    fitted: Values
+    shipped: Values
+    tried: int
+    judged: tuple[Judged, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain values."""
+        return asdict(self)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Observed:
+    """Sweeps and what MuJoCo made of them.
+
+    Attributes:
+        sweeps: The sweeps.
+        states: What became of each.
+    """
+
+    sweeps: Sequence[Sweep]
+    states: Sequence[State]
+
+    def score(self, values: Values) -> Score:
+        """How well pymunk predicts them with some options."""
+        return score(compare(self.sweeps, outcomes(self.sweeps, "pymunk", values), self.states))
+
+
+def calibrate(scenes: int, published: Sequence[str], tell: Callable[[str], None]) -> Calibration:
+    """Fit, and judge the fit.
+
+    Args:
+        scenes: In how many random scenes sweeps are fitted, and in as many others they are judged.
+        published: Scenes whose first sweeps are judged, too.
+        tell: Is told what is being done.
+    """
+    tell("sweeping in MuJoCo")
+    train, held_back = _random(range(1, scenes + 1)), _random(range(scenes + 1, 2 * scenes + 1))
+    first = _observed(planned_sweeps(published, PLAN_OPTIONS, first=True))
+    fitted, tried = fit(train.score, tell)
+    shipped = {**BEFORE, **PLAN_OPTIONS}
+    sets = (("fitted to", train), ("held back", held_back), ("first, published", first))
+    judged = tuple(
+        Judged(name, *(observed.score(values) for values in (BEFORE, fitted, shipped))) for name, observed in sets
+    )
+    return Calibration(fitted, shipped, tried, judged)
+
+
+def fit(judge: Callable[[Values], Score], tell: Callable[[str], None]) -> tuple[Values, int]:
+    """The values on the grid that fit best, one after the other, until none moves; and how often it judged."""
+    values, best, tried = dict(BEFORE), judge(BEFORE).fit, 1
+    for _ in range(ROUNDS):
+        begun = dict(values)
+        for name, grid in GRID.items():
+            tell(f"fitting {name}, so far {best * 1e3:.2f} mm")
+            others = [value for value in grid if value != values[name]]
+            fits = [judge({**values, name: value}).fit for value in others]
+            tried += len(fits)
+            if min(fits) < best * (1.0 - GAIN):
+                best, values[name] = min(fits), others[fits.index(min(fits))]
+        if values == begun:
+            break
+    return values, tried
+
+
+def _random(seeds: Sequence[int]) -> Observed:
+    by_crowd = [planned_sweeps([f"random/{seed}"], {}, scenes={"count": CROWDS[seed % len(CROWDS)]}) for seed in seeds]
+    return _observed([sweep for sweeps in by_crowd for sweep in sweeps])
+
+
+def _observed(sweeps: Sequence[Sweep]) -> Observed:
+    return Observed(sweeps, outcomes(sweeps, "mujoco"))

@@ -1,0 +1,1 @@
+"""Planar geometry that is nobody's method: outlines, clearance, the shelf as boxes."""

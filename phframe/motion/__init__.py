@@ -1,0 +1,1 @@
+"""Motion planning: kinematics, collision checking, Cartesian path following, OMPL, time parametrisation."""

@@ -1,0 +1,89 @@
+"""Points on an arm's covers, and how they move: what tells how wide a posture is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from phframe.motion.pinocchio_ import Kinematics
+from phframe.urdf.solids import FACETS, ORIGIN, Solid, Vector, rotation
+from phframe.urdf.reader import Robot
+from phframe.core import FloatArray, Mount, turn
+
+AROUND, ALONG = 8, 5
+"""Points around a cylinder, and rings of them along it."""
+
+
+class Skin:
+    """Points on those links of an arm behind the gripper that can come into a shelf.
+
+    Args:
+        kinematics: Of the arm.
+        robot: Its links.
+        joints: Names of its joints, from the base to the gripper.
+        tip: The gripper's link, which is not looked at: it goes wherever the gripper does.
+        mount: Where the base stands.
+        depth: Of the shelf (m).
+    """
+
+    def __init__(
+        self, kinematics: Kinematics, robot: Robot, joints: Sequence[str], tip: str, mount: Mount, depth: float
+    ) -> None:
+        self._kinematics = kinematics
+        inside = _links_inside(robot, joints, tip, depth)
+        self._points = {row: np.vstack(found) for row, name in inside if (found := list(_covers(robot, name, tip)))}
+        self._axes = np.eye(3)
+        self._axes[:2, :2] = turn(mount.yaw)
+        self._at = np.array([mount.x, mount.y, mount.z])
+
+    def seen(self, q: FloatArray, direction: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The points ``(k, 3)`` in the shelf frame (m), and how they move as joints move in a direction ``(dof,)``."""
+        places = self._kinematics.places(q, direction)
+        points, speeds = [], []
+        for row, own in self._points.items():
+            axes, at, turning, velocity = places[row]
+            off = own @ axes.T
+            points.append(off + at)
+            speeds.append(off @ _crossing(turning) + velocity)
+        return np.vstack(points) @ self._axes.T + self._at, np.vstack(speeds) @ self._axes.T
+
+
+def _crossing(turning: FloatArray) -> FloatArray:
+    """The matrix ``(3, 3)`` by which row vectors are multiplied for their cross product with a turning, which comes first."""
+    x, y, z = turning.tolist()
+    return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+
+
+def _links_inside(robot: Robot, joints: Sequence[str], tip: str, depth: float) -> list[tuple[int, str]]:
+    """Number of the joint and name of the link, of all whose far end is no farther behind the fingertip than ``depth``."""
+    found, behind, child = [], 0.0, tip
+    for row in range(len(joints) - 1, -1, -1):
+        link = robot.joint(joints[row]).child
+        while child != link:
+            behind += float(np.linalg.norm(robot.connections[child].at))
+            child = robot.connections[child].parent
+        if behind > depth:
+            break
+        found.append((row, link))
+    return found
+
+
+def _covers(robot: Robot, link: str, tip: str, at: Vector = ORIGIN, rpy: Vector = ORIGIN) -> Iterator[FloatArray]:
+    """Points ``(k, 3)`` on a link and on all that is fixed to it, in the frame of the joint that carries it."""
+    axes = rotation(rpy)
+    for solid in robot.covers[link]:
+        yield _points(solid) @ axes.T + at
+    for connection in robot.connections.values():
+        if connection.parent == link and connection.joint is None and connection.child != tip:
+            for points in _covers(robot, connection.child, tip, connection.at, connection.rpy):
+                yield points @ axes.T + at
+
+
+def _points(solid: Solid) -> FloatArray:
+    """On the surface of a solid, in the frame of its link."""
+    corners = solid.corners()
+    if solid.kind != "cylinder":
+        return corners
+    rims = corners.reshape(2, FACETS, 3)[:, :: FACETS // AROUND]
+    return np.vstack([rims[0] + share * (rims[1] - rims[0]) for share in np.linspace(0.0, 1.0, ALONG)])

@@ -1,0 +1,128 @@
+"""Gives a path of joints its times, as quick as speeds and accelerations allow, by TOPP-RA (Pham and Pham 2018)."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import toppra
+import toppra.algorithm
+import toppra.constraint
+
+from phframe.motion.trapezoidal_velocity import ramp
+from phframe.core import FloatArray, IntArray
+
+SPACING = 0.02
+"""Between samples (s)."""
+LEAST = 1e-4
+"""Steps shorter than this (s) at full speed count as no step."""
+LEAST_GRID = 40
+"""Points of the solver's grid."""
+FINER, GRIDS = 3, 3
+"""Times as many, and grids that are tried: at points of a coarse one it may find that it can hardly go on at all."""
+CREEPING = 2.0, 0.5
+"""What takes more than so many times its time at full speed, and so many seconds besides, may be creeping."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Timed:
+    """A path over time, from rest to rest.
+
+    Attributes:
+        times: ``(k,)`` from 0 (s).
+        values: ``(k, m)``.
+        speeds: ``(k, m)``.
+    """
+
+    times: FloatArray
+    values: FloatArray
+    speeds: FloatArray
+
+
+def timed(path: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Timed:
+    """The quickest way along a path within limits, or where that is not found, a slower one.
+
+    Args:
+        path: ``(n, m)`` values that follow one another, smoothly joined by cubic splines.
+        speeds: Greatest speed of each value ``(m,)``.
+        accelerations: Greatest acceleration of each value ``(m,)``.
+    """
+    path = path[_apart(path, speeds)]
+    if len(path) < 2:
+        return Timed(np.array([0.0, SPACING]), path[[0, 0]], np.zeros((2, path.shape[1])))
+    share = np.concatenate([[0.0], np.cumsum(_seconds(path, speeds))])
+    spline = toppra.SplineInterpolator(share, path)
+    grid = share if len(share) >= LEAST_GRID else np.linspace(0.0, share[-1], LEAST_GRID)
+    found: list[Timed] = []
+    for _ in range(GRIDS):
+        found += _quickest(spline, grid, speeds, accelerations)
+        if found and not _creeps(found[-1], share):
+            return found[-1]
+        grid = _divided(grid)
+    return min([*found, _evenly(spline, share, speeds, accelerations)], key=lambda way: float(way.times[-1]))
+
+
+def _apart(path: FloatArray, speeds: FloatArray) -> IntArray:
+    """Rows that are ``LEAST`` or more apart, first and last among them; one row of a path that goes nowhere."""
+    kept = [0]
+    for row in range(1, len(path)):
+        if _between(path[kept[-1]], path[row], speeds) > LEAST:
+            kept.append(row)
+    last = len(path) - 1
+    if kept[-1] != last and len(kept) > 1:
+        kept[-1] = last
+    return np.array(kept)
+
+
+def _between(begin: FloatArray, end: FloatArray, speeds: FloatArray) -> float:
+    """Time from one to the other at full speed (s)."""
+    return float((np.abs(end - begin) / speeds).max())
+
+
+def _seconds(path: FloatArray, speeds: FloatArray) -> FloatArray:
+    """The same along a path, ``(n - 1,)``."""
+    return np.asarray((np.abs(np.diff(path, axis=0)) / speeds).max(axis=1))
+
+
+def _creeps(found: Timed, share: FloatArray) -> bool:
+    """Whether a way takes far longer than a path should."""
+    times, besides = CREEPING
+    return float(found.times[-1]) > times * float(share[-1]) + besides
+
+
+def _divided(grid: FloatArray) -> FloatArray:
+    """A grid with more points between its points."""
+    parts = np.arange(FINER) / FINER
+    return np.append((grid[:-1, None] + np.diff(grid)[:, None] * parts).ravel(), grid[-1])
+
+
+def _quickest(spline: Any, grid: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> list[Timed]:
+    """TOPP-RA's way along a spline whose parameter is the time at full speed, if it finds any."""
+    logging.getLogger("toppra").setLevel(logging.ERROR)  # it warns where it finds none
+    limits = [
+        toppra.constraint.JointVelocityConstraint(np.column_stack([-speeds, speeds])),
+        toppra.constraint.JointAccelerationConstraint(np.column_stack([-accelerations, accelerations])),
+    ]
+    solver = toppra.algorithm.TOPPRA(limits, spline, gridpoints=grid, parametrizer="ParametrizeConstAccel")
+    found = solver.compute_trajectory(0.0, 0.0)
+    if found is None:
+        return []
+    times = np.linspace(0.0, found.duration, max(2, int(np.ceil(found.duration / SPACING)) + 1))
+    return [Timed(times, np.asarray(found(times)), np.asarray(found(times, 1)))]
+
+
+def _evenly(spline: Any, share: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Timed:
+    """A way along a spline as slow all along as where it has to be slowest."""
+    looks = _divided(_divided(share))
+    slope, bend = np.abs(spline(looks, 1)), np.abs(spline(looks, 2))
+    fastest = 1.0 / float((slope / speeds).max())
+    curved = float((bend / accelerations).max())
+    if curved > 0.0:  # half of the acceleration is for the bends, the other half for getting faster
+        fastest = min(fastest, float(np.sqrt(0.5 / curved)))
+    gain = 0.5 / float((slope / accelerations).max())
+    found, length = ramp(float(share[-1]) / fastest, fastest / gain), float(share[-1])
+    times = found.times(SPACING)
+    at = found.share(times) * length
+    return Timed(times, np.asarray(spline(at)), np.asarray(spline(at, 1)) * (found.rate(times) * length)[:, None])

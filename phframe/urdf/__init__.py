@@ -1,0 +1,1 @@
+"""Robots as links and joints: one model, one reader, one writer of URDF."""

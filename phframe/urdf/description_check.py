@@ -1,0 +1,57 @@
+"""Whether what is described of an arm agrees with its URDF."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from phframe.urdf.description import ArmDescription
+from phframe.urdf.reader import Robot
+from phframe.core import ArmError, Joint
+
+
+def check_description(description: ArmDescription, robot: Robot) -> None:
+    """Find a description and a URDF to agree.
+
+    Raises:
+        ArmError: If they do not; says where.
+    """
+    names = (*description.joints, *description.fingers)
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise ArmError(f"joint {twice[0]!r} is named twice under 'joints' and 'fingers'")
+    joints = [_joint(robot, name) for name in description.joints]
+    for name in description.fingers:
+        _joint(robot, name)
+        if robot.joint(name).kind != "prismatic":
+            raise ArmError(f"the finger joint {name!r} turns; fingers that slide are needed")
+    _check_values("home", description.home, joints)
+    for posture in description.postures:
+        _check_values("a posture", posture, joints)
+    if strange := sorted({link for pair in description.overlapping for link in pair} - set(robot.covers)):
+        raise ArmError(
+            f"'overlapping' names the link {strange[0]!r}, which the URDF has not; there is: {', '.join(robot.covers)}"
+        )
+
+
+def _joint(robot: Robot, name: str) -> Joint:
+    """A joint that can be driven."""
+    joint = robot.joint(name).joint
+    assert joint is not None, "found by its joint"
+    for fault in _faults(joint):
+        raise ArmError(f"joint {name!r} of the URDF {fault}")
+    return joint
+
+
+def _faults(joint: Joint) -> Iterator[str]:
+    if joint.lower >= joint.upper:
+        yield f"has no room between its limits {joint.lower:g} and {joint.upper:g}"
+    for key, value in (("velocity", joint.velocity), ("effort", joint.effort)):
+        if value <= 0.0:
+            yield f"has the {key} {value:g}; one above 0 is needed"
+
+
+def _check_values(what: str, values: Sequence[float], joints: Sequence[Joint]) -> None:
+    if len(values) != len(joints):
+        raise ArmError(f"{what} has {len(values)} values for {len(joints)} joints")
+    for joint, value in zip(joints, values, strict=True):
+        if not joint.lower <= value <= joint.upper:
+            raise ArmError(f"at {what} {joint.name} is {value:g}, beyond its limits {joint.lower:g} to {joint.upper:g}")
