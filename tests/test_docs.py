@@ -109,7 +109,7 @@ def test_what_is_optional_in_a_scene_file_is_shown_with_its_default() -> None:
     (block,) = [block for block in blocks("yaml") if block.page == DOCS / "scenes.md"]
     kept = [line for line in block.text.splitlines() if "# optional" not in line and not line.startswith("  planar:")]
     full, bare = parse_scene(block.text, "full"), parse_scene("\n".join(kept), "bare")
-    assert full.mounts["planar"] == create(Kind.ARM, "planar").default_mount(full.shelf)
+    assert full.base_poses["planar"] == create(Kind.ARM, "planar").default_base_pose(full.shelf)
     assert (full.shelf, full.objects[1:]) == (bare.shelf, bare.objects[1:])
     assert full.objects[0].friction == bare.shelf.board_friction
     assert (full.objects[0].mass, full.objects[0].yaw) == (bare.objects[0].mass, bare.objects[0].yaw)

@@ -1,4 +1,4 @@
-"""What the documentation lists is complete and right: names, options, keys, codes, settlements, variables, kinds."""
+"""What the documentation lists is complete and right: names, options, keys, codes, deviations, variables, kinds."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from pydantic import BaseModel
 
 import phframe
 from phframe import testing
-from phframe.motion.options import ArticulatedOptions
-from phframe.urdf.description import ArmDescription, Section, Stand, TipFrame
 from phframe.cli import exit_codes
 from phframe.cli.listing_data import listing
 from phframe.cli.option_list import describe
 from phframe.core import Condition, Episode, Phase, Status
-from phframe.pushing.deviation import Choice
+from phframe.motion.options import ArticulatedOptions
+from phframe.pushing.deviation import Deviation
 from phframe.registry import Kind, builtin, create
 from phframe.registry.load import INTERFACES
 from phframe.runtime.summary import summarize
+from phframe.urdf.description import ArmDescription, Section, Stand, TipFrame
 from tests.markdown import DOCS, PAGES, README, ROOT, blocks, column, each_page, extras, named, quoted, table, text_of
 
 PLANNERS = [each.name for each in builtin.EXTENSIONS if each.kind is Kind.PLANNER]
@@ -150,7 +150,7 @@ def test_what_runs_where_is_what_the_markers_say() -> None:
 
 
 def test_every_settlement_is_explained() -> None:
-    assert column("docs/planners.md", "Settlements of what the paper leaves open") == list(Choice)
+    assert column("docs/planners.md", "Deviations of what the paper leaves open") == list(Deviation)
 
 
 @pytest.mark.parametrize("planner", PLANNERS)

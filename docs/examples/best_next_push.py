@@ -18,17 +18,17 @@ class BestNextPush(Planner[PushingOptions]):
         pushing, state = Pushing(task, self.options), task.start
         plan = Plan(Status.CLEARED, "the corridor is empty; the episode finds the grasp")
         for _ in range(self.options.max_actions):
-            situation = pushing.situation(state)
-            if isinstance(situation, Infeasible):
-                return replace(plan, status=Status.FAILED, reason=situation.reason)
-            if len(situation.members) == 0:
+            problem = pushing.problem(state)
+            if isinstance(problem, Infeasible):
+                return replace(plan, status=Status.FAILED, reason=problem.reason)
+            if len(problem.members) == 0:
                 return plan
-            diagram = pushing.diagram(situation)
+            diagram = pushing.diagram(problem)
             radii = [*usable_radii(diagram.finite_deaths, self.options.margin, pushing.threshold), pushing.threshold]
-            pushes = [push for radius in radii for push in pushing.pushes(situation, diagram, float(radius))]
+            pushes = [push for radius in radii for push in pushing.pushes(problem, diagram, float(radius))]
             outcomes = [transition.state for transition in task.apply_many([(state, action) for _, action in pushes])]
-            left = [int(situation.corridor.contains(outcome.positions).sum()) for outcome in outcomes]
-            if min(left, default=len(situation.members)) >= len(situation.members):
+            left = [int(problem.corridor.contains(outcome.positions).sum()) for outcome in outcomes]
+            if min(left, default=len(problem.members)) >= len(problem.members):
                 return replace(plan, status=Status.FAILED, reason="no push leaves fewer obstacles in the corridor")
             (decision, action), state = pushes[left.index(min(left))], outcomes[left.index(min(left))]
             plan = replace(

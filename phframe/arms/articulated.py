@@ -12,30 +12,30 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from phframe.motion.options import ArticulatedOptions
-from phframe.urdf.description import ArmDescription, Section, TipFrame, read_description
-from phframe.urdf.description_check import check_description
 from phframe.arms.outlines import gripper_outlines
-from phframe.motion.pinocchio_ import Kinematics
-from phframe.arms.reach import share_served
-from phframe.urdf.model import with_frame
-from phframe.urdf.reader import Robot, read_robot
+from phframe.arms.reach import fraction_served
 from phframe.core import (
     ArmError,
     ArmModel,
     ArmShape,
+    BasePose,
     Fingers,
     FloatArray,
     Joint,
     MotionPlanner,
-    Mount,
     NotInstalledError,
     Outline,
     Scene,
     Shelf,
-    turn,
+    rotation_matrix,
 )
 from phframe.core.value import frozen_floats
+from phframe.motion.options import ArticulatedOptions
+from phframe.motion.pinocchio_ import Kinematics
+from phframe.urdf.description import ArmDescription, Section, TipFrame, read_description
+from phframe.urdf.description_check import check_description
+from phframe.urdf.model import with_frame
+from phframe.urdf.reader import Robot, read_robot
 
 FRONT = 1e-3
 """What begins within this of the fingertips (m) goes in first."""
@@ -117,13 +117,13 @@ class ArticulatedArm(ArmModel[OptionsT]):
         target = np.concatenate([target[:3], target[3:] / np.linalg.norm(target[3:])])
         return self.kinematics.inverse(target, None if seed is None else self._joint_values(seed))
 
-    def default_mount(self, shelf: Shelf) -> Mount:
+    def default_base_pose(self, shelf: Shelf) -> BasePose:
         """So that the middle of the mouth is where the description wants it."""
         stand = self.description.shelf
-        x, y = -turn(-stand.yaw) @ np.array(stand.at[:2])
-        return Mount(float(x), shelf.width / 2.0 + float(y), -stand.at[2], 0.0 - stand.yaw)
+        x, y = -rotation_matrix(-stand.yaw) @ np.array(stand.at[:2])
+        return BasePose(float(x), shelf.width / 2.0 + float(y), -stand.at[2], 0.0 - stand.yaw)
 
-    def motion_planner(self, scene: Scene, mount: Mount) -> MotionPlanner[Any]:
+    def motion_planner(self, scene: Scene, base_pose: BasePose) -> MotionPlanner[Any]:
         """Follows paths in the shelf, and plans free ways with OMPL.
 
         Raises:
@@ -146,12 +146,15 @@ class ArticulatedArm(ArmModel[OptionsT]):
             remedy = f'pip install "phframe[baxter]" (wheels for {wheels})'
             raise NotInstalledError(f"motion planning for {type(self).__name__}", library, remedy) from error
 
-        return ArticulatedMotionPlanner(scene, self, mount, self.options)
+        return ArticulatedMotionPlanner(scene, self, base_pose, self.options)
 
-    def share_served(self, shelf: Shelf, mount: Mount) -> float:
+    def fraction_served(self, shelf: Shelf, base_pose: BasePose) -> float:
         """By descent from the pose beside alone."""
-        return share_served(
-            shelf, self, mount, lambda pose, seed: self.kinematics.descend(pose, self.home if seed is None else seed)
+        return fraction_served(
+            shelf,
+            self,
+            base_pose,
+            lambda pose, seed: self.kinematics.descend(pose, self.home if seed is None else seed),
         )
 
     @cached_property

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from phframe.urdf.model import Connection
-from phframe.urdf.solids import Solid, rotation
-from phframe.urdf.reader import Robot
 from phframe.core import FloatArray, Outline
+from phframe.urdf.model import Connection
+from phframe.urdf.reader import Robot
+from phframe.urdf.solids import Solid, rotation
 
 SIDES = (1, -1)
 MOST_CORNERS = 4

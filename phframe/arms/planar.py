@@ -10,16 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 from pydantic import Field
 
-from phframe.motion.planar import PlanarMotionOptions, PlanarMotionPlanner
-from phframe.urdf.planar import planar_urdf
 from phframe.core import (
     ArmError,
     ArmModel,
     ArmShape,
+    BasePose,
     Fingers,
     FloatArray,
     Joint,
-    Mount,
     Options,
     Outline,
     Scene,
@@ -27,6 +25,8 @@ from phframe.core import (
     planar_pose,
     yaw_of,
 )
+from phframe.motion.planar import PlanarMotionOptions, PlanarMotionPlanner
+from phframe.urdf.planar import planar_urdf
 
 HEIGHT = 0.06
 """Of the gripper plane above the board (m): half the height of the usual object."""
@@ -109,13 +109,13 @@ class PlanarArm(ArmModel[PlanarArmOptions]):
         level = np.allclose(self.forward(q)[2:], _same_sign(target)[2:], atol=1e-9)
         return q if level and self.within_limits(q) else None
 
-    def default_mount(self, shelf: Shelf) -> Mount:
+    def default_base_pose(self, shelf: Shelf) -> BasePose:
         """In front of the middle of the mouth."""
-        return Mount(-0.1, shelf.width / 2.0, HEIGHT, 0.0)
+        return BasePose(-0.1, shelf.width / 2.0, HEIGHT, 0.0)
 
-    def motion_planner(self, scene: Scene, mount: Mount) -> PlanarMotionPlanner:
+    def motion_planner(self, scene: Scene, base_pose: BasePose) -> PlanarMotionPlanner:
         """Straight from corner to corner."""
-        return PlanarMotionPlanner(scene, self, mount, PlanarMotionOptions())
+        return PlanarMotionPlanner(scene, self, base_pose, PlanarMotionOptions())
 
     def urdf(self) -> str:
         """Three joints, a box for each part of the outline, and a sliding joint for each finger."""

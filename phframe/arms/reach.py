@@ -1,4 +1,4 @@
-"""Where over a shelf an arm's fingertip can be: what a mount is worth."""
+"""Where over a shelf an arm's fingertip can be: what a base pose is worth."""
 
 from __future__ import annotations
 
@@ -9,7 +9,18 @@ from typing import Any
 
 import numpy as np
 
-from phframe.core import ArmModel, FloatArray, Mount, Outline, Scene, Shelf, compose, inverse, planar_pose, turn
+from phframe.core import (
+    ArmModel,
+    BasePose,
+    FloatArray,
+    Outline,
+    Scene,
+    Shelf,
+    compose,
+    inverse,
+    planar_pose,
+    rotation_matrix,
+)
 from phframe.core.value import Floats, Value
 
 SPACING = 0.025
@@ -41,42 +52,42 @@ class Reachability(Value):
         self._freeze("depths", "widths", "yaws")
 
     @property
-    def share(self) -> float:
+    def fraction(self) -> float:
         """Of the positions, those that are reached."""
         return float(np.isfinite(self.yaws).mean())
 
 
-def share_reachable(scene: Scene, arm: ArmModel[Any], mount: Mount) -> float:
-    """The share of the shelf over which the fingertip can be, level in the gripper plane, at a yaw within 30 degrees."""
-    return reachability(scene, arm, mount, spacing=2.0 * SPACING).share
+def fraction_reachable(scene: Scene, arm: ArmModel[Any], base_pose: BasePose) -> float:
+    """The fraction of the shelf over which the fingertip can be, level in the gripper plane, at a yaw within 30 degrees."""
+    return reachability(scene, arm, base_pose, spacing=2.0 * SPACING).fraction
 
 
-def reachability(scene: Scene, arm: ArmModel[Any], mount: Mount, spacing: float = SPACING) -> Reachability:
+def reachability(scene: Scene, arm: ArmModel[Any], base_pose: BasePose, spacing: float = SPACING) -> Reachability:
     """Where over a shelf the fingertip can be, by inverse kinematics, with the arm's outlines between the walls.
 
     Args:
         scene: Whose shelf it is; objects do not count.
         arm: The arm.
-        mount: Where its base stands.
+        base_pose: Where its base stands.
         spacing: Of the positions tried (m).
     """
-    return _reachability(scene.shelf, arm, mount, spacing, arm.inverse)
+    return _reachability(scene.shelf, arm, base_pose, spacing, arm.inverse)
 
 
-def share_served(shelf: Shelf, arm: ArmModel[Any], mount: Mount, solve: Solve) -> float:
-    """The same share as ``share_reachable``, on a coarse grid and with an inverse that may give up early: quickly.
+def fraction_served(shelf: Shelf, arm: ArmModel[Any], base_pose: BasePose, solve: Solve) -> float:
+    """The same fraction as ``fraction_reachable``, on a coarse grid and with an inverse that may give up early: quickly.
 
     Args:
         shelf: The shelf.
         arm: The arm.
-        mount: Where its base stands.
+        base_pose: Where its base stands.
         solve: Joint values for a pose ``(7,)`` in the frame of the base, near others or near none; None: not found.
     """
-    return _reachability(shelf, arm, mount, COARSE_SPACING, solve).share
+    return _reachability(shelf, arm, base_pose, COARSE_SPACING, solve).fraction
 
 
-def _reachability(shelf: Shelf, arm: ArmModel[Any], mount: Mount, spacing: float, solve: Solve) -> Reachability:
-    base = inverse(mount.pose)
+def _reachability(shelf: Shelf, arm: ArmModel[Any], base_pose: BasePose, spacing: float, solve: Solve) -> Reachability:
+    base = inverse(base_pose.pose)
     depths, widths = _positions(shelf.depth, spacing), _positions(shelf.width, spacing)
     yaws = np.full((len(widths), len(depths)), np.inf)
     found: dict[tuple[int, int], FloatArray] = {}
@@ -106,7 +117,9 @@ def _fits(outlines: tuple[Outline, ...], x: float, y: float, yaw: float, width: 
     """Whether the outlines, fingers closed, stand between the side walls wherever they are beyond the mouth."""
     tip = np.array([x, y])
     return all(
-        0.0 <= across <= width for outline in outlines for across in _inside(outline.vertices @ turn(yaw).T + tip)
+        0.0 <= across <= width
+        for outline in outlines
+        for across in _inside(outline.vertices @ rotation_matrix(yaw).T + tip)
     )
 
 

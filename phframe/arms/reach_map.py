@@ -24,7 +24,7 @@ def draw_reach(reach: Reachability, scene: Scene, title: str, path: Path) -> Non
     Args:
         reach: What is reached.
         scene: The shelf and its objects.
-        title: Above the map; the share is put after it.
+        title: Above the map; the fraction is put after it.
         path: The PNG file to write.
     """
     path.write_bytes(reach_picture(reach, scene, title))
@@ -38,7 +38,7 @@ def reach_picture(reach: Reachability, scene: Scene, title: str) -> bytes:
     figure = Figure(figsize=SIZE, layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.add_subplot(xlabel="depth x (m), mouth on the left", ylabel="y (m), south wall below")
-    axes.set_title(f"{title}: {reach.share:.1%} of the shelf within reach", fontsize=11)
+    axes.set_title(f"{title}: {reach.fraction:.1%} of the shelf within reach", fontsize=11)
     _draw_cells(axes, reach)
     _draw_shelf(axes, scene)
     _draw_objects(axes, scene)

@@ -45,7 +45,7 @@ SceneSpec = Annotated[
         autocompletion=completion.scenes,
     ),
 ]
-Mount = Annotated[
+BasePose = Annotated[
     tuple[float, float, float, float] | None,
     typer.Option(
         "--mount",
@@ -68,7 +68,7 @@ OptionTexts = Annotated[
         autocompletion=completion.options,
     ),
 ]
-Json = Annotated[bool, typer.Option("--json", help="Print the shares as one JSON object instead of a sentence.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the fractions as one JSON object instead of a sentence.")]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite a picture that is there.")]
 
 
@@ -79,7 +79,7 @@ Force = Annotated[bool, typer.Option("--force", help="Overwrite a picture that i
 def reach(
     arm: Arm = "planar",
     scene: SceneSpec = "vieira/basic",
-    mount: Mount = None,
+    base_pose: BasePose = None,
     out: Out = None,
     option: OptionTexts = None,
     as_json: Json = False,
@@ -92,4 +92,4 @@ def reach(
     options = only_parts(parse_options(option or ()), "arm", "scenes")
     from phframe.cli.reaching import Wanted, run  # heavy, and not needed where the options are wrong
 
-    run(Wanted(arm, scene, mount, out, options, as_json, force))
+    run(Wanted(arm, scene, base_pose, out, options, as_json, force))

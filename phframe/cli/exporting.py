@@ -12,7 +12,7 @@ from phframe.cli.export_formats import FORMATS, Format
 from phframe.cli.needs import require
 from phframe.cli.output import STANDARD_OUTPUT, Output
 from phframe.cli.run import EPISODE
-from phframe.core import ArmModel, Episode, InputError, Mount, OptionError, Scene, UnknownNameError
+from phframe.core import ArmModel, BasePose, Episode, InputError, OptionError, Scene, UnknownNameError
 from phframe.core.paths import user_path
 from phframe.registry import Kind, create
 
@@ -137,8 +137,8 @@ def _scene_text(scene: Scene, wanted: Wanted, form: Format) -> str:
     require("mujoco", "an arm in MJCF", "mujoco")
     from phframe.backends.mujoco_.export import with_arm
 
-    arm, mount = _arm(scene, wanted)
-    return with_arm(text, arm, mount)
+    arm, base_pose = _arm(scene, wanted)
+    return with_arm(text, arm, base_pose)
 
 
 def _parts(scene: Scene, wanted: Wanted) -> dict[str, str]:
@@ -147,14 +147,14 @@ def _parts(scene: Scene, wanted: Wanted) -> dict[str, str]:
     parts = scene_parts(scene)
     if wanted.arm is None:
         return parts
-    arm, mount = _arm(scene, wanted)
-    x, y, z, w, *vector = (float(number) for number in mount.pose)
+    arm, base_pose = _arm(scene, wanted)
+    x, y, z, w, *vector = (float(number) for number in base_pose.pose)
     listed = {**json.loads(parts[LIST_FILE]), "arm": {"urdf": ARM_FILE, "position": [x, y, z]}}
     listed["arm"]["orientation"] = [*vector, w]
     return {**parts, ARM_FILE: arm.urdf(), LIST_FILE: json.dumps(listed, indent=1) + "\n"}
 
 
-def _arm(scene: Scene, wanted: Wanted) -> tuple[ArmModel[Any], Mount]:
+def _arm(scene: Scene, wanted: Wanted) -> tuple[ArmModel[Any], BasePose]:
     assert wanted.arm is not None, "asked for"
     arm = create(Kind.ARM, wanted.arm, wanted.options["arm"])
-    return arm, scene.mounts.get(wanted.arm) or arm.default_mount(scene.shelf)
+    return arm, scene.base_poses.get(wanted.arm) or arm.default_base_pose(scene.shelf)

@@ -13,11 +13,11 @@ from phframe.arms.reach import Reachability, reachability
 from phframe.cli.console import emit
 from phframe.cli.needs import require
 from phframe.cli.output import STANDARD_OUTPUT, Output
-from phframe.core import InputError, Mount
+from phframe.core import BasePose, InputError
 from phframe.registry import Kind, create
 from phframe.runtime.scenes import find_scene
 
-FORMAT = 1
+FORMAT = 2
 """Of the JSON object."""
 
 
@@ -28,7 +28,7 @@ class Wanted:
     Attributes:
         arm: A name, or a class in a file.
         scene: A name, or a file.
-        mount: Where the base stands: x, y, z (m), yaw (rad); None: as the scene or the arm has it.
+        base_pose: Where the base stands: x, y, z (m), yaw (rad); None: as the scene or the arm has it.
         out: The picture; None: none.
         options: As text, by part and key.
         as_json: Whether to print JSON.
@@ -37,7 +37,7 @@ class Wanted:
 
     arm: str
     scene: str
-    mount: tuple[float, float, float, float] | None
+    base_pose: tuple[float, float, float, float] | None
     out: str | None
     options: Mapping[str, Mapping[str, str]]
     as_json: bool
@@ -45,7 +45,7 @@ class Wanted:
 
 
 def run(wanted: Wanted) -> None:
-    """Print the shares, and draw the map if that is wanted.
+    """Print the fractions, and draw the map if that is wanted.
 
     Raises:
         PhframeError: If something asked for cannot be used; nothing was written then.
@@ -53,15 +53,15 @@ def run(wanted: Wanted) -> None:
     scene = find_scene(wanted.scene, wanted.options["scenes"])
     arm = create(Kind.ARM, wanted.arm, wanted.options["arm"])
     output = _output(wanted)
-    own = scene.mounts.get(wanted.arm) or arm.default_mount(scene.shelf)
-    mount = own if wanted.mount is None else Mount(*wanted.mount)
-    reach = reachability(scene, arm, mount)
+    own = scene.base_poses.get(wanted.arm) or arm.default_base_pose(scene.shelf)
+    base_pose = own if wanted.base_pose is None else BasePose(*wanted.base_pose)
+    reach = reachability(scene, arm, base_pose)
     if output is not None:
         from phframe.arms.reach_map import reach_picture
 
         output.write_bytes(reach_picture(reach, scene, f"{wanted.arm} in {scene.name}"))
-    shares = _shares(wanted.arm, scene.name, mount, reach)
-    emit(json.dumps(shares, allow_nan=False) if wanted.as_json else _sentence(shares))
+    fractions = _fractions(wanted.arm, scene.name, base_pose, reach)
+    emit(json.dumps(fractions, allow_nan=False) if wanted.as_json else _sentence(fractions))
 
 
 def _output(wanted: Wanted) -> Output | None:
@@ -73,23 +73,23 @@ def _output(wanted: Wanted) -> Output | None:
     return Output(wanted.out, force=wanted.force)
 
 
-def _shares(arm: str, scene: str, mount: Mount, reach: Reachability) -> dict[str, Any]:
+def _fractions(arm: str, scene: str, base_pose: BasePose, reach: Reachability) -> dict[str, Any]:
     known = np.isfinite(reach.yaws)
     return {
         "format": FORMAT,
         "arm": arm,
         "scene": scene,
-        "mount": [mount.x, mount.y, mount.z, mount.yaw],
-        "share": reach.share,
+        "mount": [base_pose.x, base_pose.y, base_pose.z, base_pose.yaw],
+        "fraction": reach.fraction,
         "straight": float((reach.yaws == 0.0).mean()),
         "depths": [round(depth, 6) for depth in reach.depths.tolist()],
-        "share_at_depth": known.mean(axis=0).tolist(),
+        "fraction_at_depth": known.mean(axis=0).tolist(),
     }
 
 
-def _sentence(shares: Mapping[str, Any]) -> str:
-    x, y, z, yaw = shares["mount"]
+def _sentence(fractions: Mapping[str, Any]) -> str:
+    x, y, z, yaw = fractions["mount"]
     return (
-        f"{shares['arm']} with its base at x {x:.3f}, y {y:.3f}, z {z:.3f} m, yaw {yaw:.3f} rad reaches "
-        f"{shares['share']:.1%} of the shelf of {shares['scene']}, {shares['straight']:.1%} without turning the gripper"
+        f"{fractions['arm']} with its base at x {x:.3f}, y {y:.3f}, z {z:.3f} m, yaw {yaw:.3f} rad reaches "
+        f"{fractions['share']:.1%} of the shelf of {fractions['scene']}, {fractions['straight']:.1%} without turning the gripper"
     )

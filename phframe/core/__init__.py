@@ -26,8 +26,8 @@ from phframe.core.options import Options
 from phframe.core.physics import Physics, Settle, Stop, SupportsPropagation, Watch
 from phframe.core.plan import Cost, Decision, Plan, Status
 from phframe.core.planner import Planner
-from phframe.core.pose import compose, inverse, planar_pose, rotate, tilt_of, turn, yaw_of
-from phframe.core.scene import Cylinder, Mount, Scene, SceneObject, Shape, Shelf, coulomb_with_board
+from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, tilt_of, yaw_of
+from phframe.core.scene import BasePose, Cylinder, Scene, SceneObject, Shape, Shelf, coulomb_with_board
 from phframe.core.state import ArmState, Condition, State
 from phframe.core.state_check import refuse_foreign
 from phframe.core.suite import SceneSuite
@@ -44,6 +44,7 @@ __all__ = [
     "ArmModel",
     "ArmShape",
     "ArmState",
+    "BasePose",
     "Budget",
     "BudgetExceededError",
     "Condition",
@@ -70,7 +71,6 @@ __all__ = [
     "Loop",
     "Motion",
     "MotionPlanner",
-    "Mount",
     "NotInstalledError",
     "OptionError",
     "Options",
@@ -114,9 +114,9 @@ __all__ = [
     "planar_pose",
     "refuse_foreign",
     "rotate",
+    "rotation_matrix",
     "starting_from",
     "tilt_of",
     "time_path",
-    "turn",
     "yaw_of",
 ]

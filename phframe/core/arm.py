@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from phframe.core.errors import ArmError, IncompatibleError
 from phframe.core.mesh import LinkMesh
 from phframe.core.options import Options
-from phframe.core.scene import Mount, Scene, Shelf
+from phframe.core.scene import BasePose, Scene, Shelf
 from phframe.core.value import FloatArray, Floats, Value
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ class ArmModel(ABC, Generic[OptionsT]):
         """
 
     @abstractmethod
-    def default_mount(self, shelf: Shelf) -> Mount:
+    def default_base_pose(self, shelf: Shelf) -> BasePose:
         """Where the base stands for a shelf when the scene does not say."""
 
     @abstractmethod
@@ -186,7 +186,7 @@ class ArmModel(ABC, Generic[OptionsT]):
         """What links really look like, for pictures; a link without any is drawn as the primitives of ``urdf``."""
         return ()
 
-    def motion_planner(self, scene: Scene, mount: Mount) -> MotionPlanner[Any]:
+    def motion_planner(self, scene: Scene, base_pose: BasePose) -> MotionPlanner[Any]:
         """What lifts the gripper's paths to joints, for backends that drive those.
 
         Raises:
@@ -197,8 +197,8 @@ class ArmModel(ABC, Generic[OptionsT]):
             "take the backend pymunk, or another arm, such as planar"
         )
 
-    def share_served(self, shelf: Shelf, mount: Mount) -> float | None:
-        """Of a shelf, the share over which the joints can take the fingertip; quickly, so to within a tenth.
+    def fraction_served(self, shelf: Shelf, base_pose: BasePose) -> float | None:
+        """Of a shelf, the fraction over which the joints can take the fingertip; quickly, so to within a tenth.
 
         None: not known, and found out pose by pose.
         """

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from phframe.core.pose import turn
+from phframe.core.pose import rotation_matrix
 from phframe.core.value import FloatArray, Floats, Value
 
 Side = Literal["north", "south"]
@@ -44,11 +44,11 @@ class Corridor(Value):
 
     def to_local(self, points: FloatArray) -> FloatArray:
         """Points ``(..., 2)`` of the shelf frame in the corridor frame."""
-        return np.asarray((points - self.origin) @ turn(self.angle))
+        return np.asarray((points - self.origin) @ rotation_matrix(self.angle))
 
     def to_shelf(self, points: FloatArray) -> FloatArray:
         """Points ``(..., 2)`` of the corridor frame in the shelf frame."""
-        return np.asarray(points @ turn(self.angle).T + self.origin)
+        return np.asarray(points @ rotation_matrix(self.angle).T + self.origin)
 
     def contains(self, points: FloatArray) -> NDArray[np.bool_]:
         """Mask ``(n,)`` of the centres ``(n, 2)``, in the shelf frame, that lie in the strip."""

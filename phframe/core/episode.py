@@ -169,9 +169,9 @@ class Episode(Value):
         return np.concatenate(errors) if errors else np.zeros(0)
 
     @property
-    def choices(self) -> Counter[str]:
-        """How often each of phframe's own settlements was used in the actions carried out."""
-        return Counter(choice for step in self.steps for choice in step.decision.choices)
+    def deviations(self) -> Counter[str]:
+        """How often each of phframe's own deviations was used in the actions carried out."""
+        return Counter(deviation for step in self.steps for deviation in step.decision.deviations)
 
     @property
     def toppled(self) -> tuple[str, ...]:

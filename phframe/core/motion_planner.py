@@ -11,7 +11,7 @@ import numpy as np
 from phframe.core.arm import ArmModel
 from phframe.core.gripper_path import GripperPath
 from phframe.core.options import Options
-from phframe.core.scene import Mount, Scene
+from phframe.core.scene import BasePose, Scene
 from phframe.core.state import State
 from phframe.core.trajectory import JointTrajectory
 
@@ -37,12 +37,12 @@ OptionsT = TypeVar("OptionsT", bound=Options)
 
 
 class MotionPlanner(ABC, Generic[OptionsT]):
-    """Plans joint trajectories for one arm at one mount in one scene."""
+    """Plans joint trajectories for one arm at one base pose in one scene."""
 
     options_type: ClassVar[type[Options]] = Options
 
-    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, options: OptionsT) -> None:
-        self.scene, self.arm, self.mount, self.options = scene, arm, mount, options
+    def __init__(self, scene: Scene, arm: ArmModel[Any], base_pose: BasePose, options: OptionsT) -> None:
+        self.scene, self.arm, self.base_pose, self.options = scene, arm, base_pose, options
 
     @abstractmethod
     def plan(
@@ -59,5 +59,5 @@ class MotionPlanner(ABC, Generic[OptionsT]):
             state: Where the objects and the arm are.
             attempts: How often to try anew; unlike seconds, it ends runs repeatably.
             seconds: Time allowed.
-            rng: The only source of chance.
+            rng: The only source of randomness.
         """

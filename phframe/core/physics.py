@@ -12,7 +12,7 @@ from phframe.core.arm import ArmModel
 from phframe.core.errors import InputError
 from phframe.core.motion import Motion, Transition
 from phframe.core.options import Options
-from phframe.core.scene import Mount, Scene
+from phframe.core.scene import BasePose, Scene
 from phframe.core.state import State
 from phframe.core.trajectory import GripperTrajectory, JointTrajectory, Trajectory
 from phframe.core.value import FloatArray
@@ -86,8 +86,8 @@ class Physics(ABC, Generic[OptionsT]):
     executes: ClassVar[type[GripperTrajectory] | type[JointTrajectory]] = GripperTrajectory
     """A planar engine drives the gripper, an articulated one the joints."""
 
-    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, options: OptionsT) -> None:
-        self.scene, self.arm, self.mount, self.options = scene, arm, mount, options
+    def __init__(self, scene: Scene, arm: ArmModel[Any], base_pose: BasePose, options: OptionsT) -> None:
+        self.scene, self.arm, self.base_pose, self.options = scene, arm, base_pose, options
 
     @abstractmethod
     def restore(self, state: State) -> State:

@@ -44,7 +44,7 @@ class Decision(Value):
         chosen: Ids of the members of the component chosen.
         rectangle: Around the chosen.
         sweep: The push.
-        choices: Which of phframe's own settlements of what the paper leaves open were used, by name.
+        deviations: Which of phframe's own deviations of what the paper leaves open were used, by name.
         parent: Index, among the plan's decisions, of the one before it in the search tree; None: it starts from the root.
     """
 
@@ -57,7 +57,7 @@ class Decision(Value):
     chosen: tuple[str, ...] = ()
     rectangle: Rectangle | None = None
     sweep: Sweep | None = None
-    choices: tuple[str, ...] = ()
+    deviations: tuple[str, ...] = ()
     parent: int | None = None
 
     def __post_init__(self) -> None:
@@ -127,6 +127,6 @@ class Plan(Value):
         return self.status not in (Status.FAILED, Status.TIMEOUT)
 
     @property
-    def choices(self) -> Counter[str]:
-        """How often each of phframe's own settlements of what the paper leaves open was used."""
-        return Counter(choice for decision in self.decisions for choice in decision.choices)
+    def deviations(self) -> Counter[str]:
+        """How often each of phframe's own deviations of what the paper leaves open was used."""
+        return Counter(deviation for decision in self.decisions for deviation in decision.deviations)

@@ -51,7 +51,7 @@ def _multiply(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.concatenate([[scalar], a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:])])
 
 
-def turn(angle: float) -> FloatArray:
+def rotation_matrix(angle: float) -> FloatArray:
     """The matrix ``(2, 2)`` that turns plane vectors by ``angle`` (rad)."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, -s], [s, c]])

@@ -90,7 +90,7 @@ class SceneObject:
 
 
 @dataclass(frozen=True, slots=True)
-class Mount:
+class BasePose:
     """Where an arm's base stands: position (m) and yaw (rad) in the shelf frame."""
 
     x: float
@@ -113,7 +113,7 @@ class Scene:
         shelf: The shelf.
         objects: All objects, the target among them. Their order is the order of every array of poses.
         target: The id of the object to take out.
-        mounts: Where an arm's base stands, by the arm's name; an arm that is not named uses its own default.
+        base_poses: Where an arm's base stands, by the arm's name; an arm that is not named uses its own default.
 
     Raises:
         SceneError: If a figure is not finite or not positive, ids repeat, the target is missing, or objects overlap or
@@ -124,7 +124,7 @@ class Scene:
     shelf: Shelf
     objects: tuple[SceneObject, ...]
     target: str
-    mounts: Mapping[str, Mount] = field(default_factory=dict, hash=False)
+    base_poses: Mapping[str, BasePose] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
         problems = problems_of(self)

@@ -35,9 +35,9 @@ def _bad_figures(scene: Scene) -> Iterator[str]:
         for name, number in zip(("x", "y", "yaw"), (*item.position, item.yaw), strict=True):
             if not math.isfinite(number):
                 yield f"object {item.id!r}: {name} is {number}, not a finite number"
-    for name, mount in scene.mounts.items():
-        if not all(math.isfinite(number) for number in (mount.x, mount.y, mount.z, mount.yaw)):
-            yield f"mount of {name!r}: {mount} holds a number that is not finite"
+    for name, base_pose in scene.base_poses.items():
+        if not all(math.isfinite(number) for number in (base_pose.x, base_pose.y, base_pose.z, base_pose.yaw)):
+            yield f"base pose of {name!r}: {base_pose} holds a number that is not finite"
 
 
 def _not_positive(name: str, number: float) -> Iterator[str]:

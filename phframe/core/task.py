@@ -49,7 +49,7 @@ class Task:
         start: The world to plan from; it need not be the scene's initial state.
         arm: The arm seen from above.
         rejected: Actions that could not be carried out; do not propose them again.
-        rng: The only source of chance.
+        rng: The only source of randomness.
         budget: What may be spent; ``apply`` keeps to it.
     """
 

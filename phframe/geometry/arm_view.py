@@ -8,8 +8,8 @@ from functools import cache
 import numpy as np
 
 from phframe.core import Outline, Shelf
-from phframe.geometry.wall_clearance import WallClearance
 from phframe.geometry.silhouette import Silhouette
+from phframe.geometry.wall_clearance import WallClearance
 
 
 class ArmView:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from phframe.core import FloatArray, Outline, turn
+from phframe.core import FloatArray, Outline, rotation_matrix
 
 
 class Silhouette:
@@ -18,7 +18,7 @@ class Silhouette:
     """
 
     def __init__(self, outlines: Sequence[Outline], tilt: float) -> None:
-        polygons = [outline.vertices @ turn(tilt).T for outline in outlines]
+        polygons = [outline.vertices @ rotation_matrix(tilt).T for outline in outlines]
         self._starts = np.concatenate(polygons)
         self._ends = np.concatenate([np.vstack([polygon[1:], polygon[:1]]) for polygon in polygons])
         self.front = float(self._starts[:, 0].max())
@@ -32,9 +32,9 @@ class Silhouette:
         x0, x1 = self._starts[:, 0], self._ends[:, 0]
         crosses = (np.minimum(x0, x1) <= x) & (x <= np.maximum(x0, x1))
         with np.errstate(divide="ignore", invalid="ignore"):
-            share = np.where(x0 == x1, 0.0, (x - x0) / (x1 - x0))
+            fraction = np.where(x0 == x1, 0.0, (x - x0) / (x1 - x0))
         y0, y1 = self._starts[:, 1], self._ends[:, 1]
-        reach = np.where(x0 == x1, np.maximum(direction * y0, direction * y1), direction * (y0 + share * (y1 - y0)))
+        reach = np.where(x0 == x1, np.maximum(direction * y0, direction * y1), direction * (y0 + fraction * (y1 - y0)))
         return np.asarray(np.where(crosses, reach, -np.inf).max(axis=1))
 
     def widest_side(self, nearest: float, farthest: float, direction: int) -> float:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from phframe.core import FloatArray, Outline, Shelf, turn
+from phframe.core import FloatArray, Outline, Shelf, rotation_matrix
 
 FAR = 10.0
 """Thickness of the walls (m): more than any arm is long."""
@@ -27,7 +27,7 @@ class WallClearance:
     """
 
     def __init__(self, shelf: Shelf, outlines: Sequence[Outline], yaw: float, margin: float) -> None:
-        arm, walls = _stacked([outline.vertices @ turn(yaw).T for outline in outlines]), _walls(shelf)
+        arm, walls = _stacked([outline.vertices @ rotation_matrix(yaw).T for outline in outlines]), _walls(shelf)
         normals = _of_pairs(-_normals(arm), _normals(walls))
         over_walls = np.einsum("wvd,awkd->awkv", walls, normals).max(axis=3)
         over_arm = np.einsum("avd,awkd->awkv", -arm, normals).max(axis=3)

@@ -8,25 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from phframe.motion.options import ArticulatedOptions
-from phframe.motion.coal_ import CollisionModel
-from phframe.motion.follow import Follower
-from phframe.motion.joint_path import joint_path, require_planner
-from phframe.motion.posture import Posture
-from phframe.motion.route import OUTSIDE, Router
-from phframe.motion.route_search import RouteSearch
-from phframe.motion.time_parametrisation import Scheduler
-from phframe.motion.surface_points import Skin
-from phframe.motion.segments import free_way, legs_of
-from phframe.motion.track import Tracker
-from phframe.motion.waypoints import waypoints
 from phframe.core import (
+    BasePose,
     Contacts,
     FloatArray,
     GripperPath,
     JointTrajectory,
     MotionPlanner,
-    Mount,
     PhaseRule,
     Scene,
     State,
@@ -36,6 +24,18 @@ from phframe.core import (
     planar_pose,
     yaw_of,
 )
+from phframe.motion.coal_ import CollisionModel
+from phframe.motion.follow import Follower
+from phframe.motion.joint_path import joint_path, require_planner
+from phframe.motion.options import ArticulatedOptions
+from phframe.motion.posture import Posture
+from phframe.motion.route import OUTSIDE, Router
+from phframe.motion.route_search import RouteSearch
+from phframe.motion.segments import free_way, legs_of
+from phframe.motion.surface_points import Skin
+from phframe.motion.time_parametrisation import Scheduler
+from phframe.motion.track import Tracker
+from phframe.motion.waypoints import waypoints
 
 if TYPE_CHECKING:
     from phframe.arms.articulated import ArticulatedArm
@@ -65,17 +65,19 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
 
     options_type = ArticulatedOptions
 
-    def __init__(self, scene: Scene, arm: ArticulatedArm[Any], mount: Mount, options: ArticulatedOptions) -> None:
-        super().__init__(scene, arm, mount, options)
+    def __init__(
+        self, scene: Scene, arm: ArticulatedArm[Any], base_pose: BasePose, options: ArticulatedOptions
+    ) -> None:
+        super().__init__(scene, arm, base_pose, options)
         require_planner(options.motion_planner)
         self._described, self._kinematics = arm.description, arm.kinematics
-        skin = Skin(self._kinematics, arm.robot, self._described.joints, arm.tip_link, mount, scene.shelf.depth)
+        skin = Skin(self._kinematics, arm.robot, self._described.joints, arm.tip_link, base_pose, scene.shelf.depth)
         self._posture = Posture(self._kinematics, skin, self._described.behind, scene.shelf)
         self._follower = Follower(self._kinematics, self._posture)
         names, apart = self._described.joints, self._described.overlapping
-        self._collisions = CollisionModel(arm.urdf(), names, self._described.fingers, apart, scene, mount)
-        self._tracker = Tracker(self._follower, self._collisions, mount, arm, scene)
-        self._scheduler = Scheduler(arm, mount, options)
+        self._collisions = CollisionModel(arm.urdf(), names, self._described.fingers, apart, scene, base_pose)
+        self._tracker = Tracker(self._follower, self._collisions, base_pose, arm, scene)
+        self._scheduler = Scheduler(arm, base_pose, options)
 
     def plan(
         self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator
@@ -114,7 +116,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
 
     def _seen(self, q: FloatArray) -> FloatArray:
         """The gripper's pose seen from above ``(3,)`` at joint values ``(dof,)``."""
-        pose = compose(self.mount.pose, self.arm.forward(q))
+        pose = compose(self.base_pose.pose, self.arm.forward(q))
         return np.array([pose[0], pose[1], yaw_of(pose)])
 
     def _goes_on(self, begin: FloatArray, path: GripperPath) -> bool:
@@ -167,4 +169,4 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
 
     def _in_base(self, gripper: FloatArray) -> FloatArray:
         x, y, yaw = gripper.tolist()
-        return compose(inverse(self.mount.pose), planar_pose(x, y, self.arm.shape.height, yaw))
+        return compose(inverse(self.base_pose.pose), planar_pose(x, y, self.arm.shape.height, yaw))

@@ -8,11 +8,11 @@ import numpy as np
 from ompl import base as ob
 from ompl import geometric as og
 
-from phframe.motion.expansive_tree import ExpansiveTree
 from phframe.core import FloatArray
+from phframe.motion.expansive_tree import ExpansiveTree
 
 DENSITY = 1.0 / 3.0
-"""Radius within which vertices count as neighbours, as a share of the range."""
+"""Radius within which vertices count as neighbours, as a fraction of the range."""
 
 
 class BiEST(ob.Planner):  # type: ignore[misc] # OMPL's types are there only where it is installed
@@ -30,7 +30,7 @@ class BiEST(ob.Planner):  # type: ignore[misc] # OMPL's types are there only whe
     Args:
         si: The space, and what is valid in it.
         reach: Range (rad or m).
-        rng: The only source of chance.
+        rng: The only source of randomness.
     """
 
     def __init__(self, si: ob.SpaceInformation, reach: float, rng: np.random.Generator) -> None:

@@ -11,7 +11,7 @@ import coal
 import numpy as np
 import pinocchio
 
-from phframe.core import FloatArray, Mount, Scene, State
+from phframe.core import BasePose, FloatArray, Scene, State
 from phframe.geometry.slabs import slabs
 
 WALL_MARGIN = 0.0015
@@ -33,7 +33,7 @@ class CollisionModel:
         fingers: Names of the joints of the two fingers.
         overlapping: Pairs of links whose covers may overlap.
         scene: The shelf and its objects.
-        mount: Where the robot's base stands.
+        base_pose: Where the robot's base stands.
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class CollisionModel:
         fingers: Collection[str],
         overlapping: Collection[tuple[str, str]],
         scene: Scene,
-        mount: Mount,
+        base_pose: BasePose,
     ) -> None:
         whole = pinocchio.buildModelFromXML(urdf)
         covers = pinocchio.buildGeomFromUrdfString(whole, urdf, pinocchio.GeometryType.COLLISION)
@@ -55,7 +55,7 @@ class CollisionModel:
             np.array([self._model.idx_qs[self._model.getJointId(name)] for name in names])
             for names in (joints, fingers)
         )
-        self._scene, self._base = scene, placement(mount)
+        self._scene, self._base = scene, placement(base_pose)
         self._links = [_link_of(self._model, item) for item in self._geometry.geometryObjects]
         self._shelf, self._objects = self._add_surroundings()
         self._fingers = frozenset(self._model.getJointId(name) for name in fingers)
@@ -170,9 +170,9 @@ class CollisionModel:
                 self._checks.collisionRequests[index].security_margin = WALL_MARGIN
 
 
-def placement(mount: Mount) -> Any:
+def placement(base_pose: BasePose) -> Any:
     """Where a robot's base stands in the shelf frame."""
-    x, y, z, scalar, i, j, k = mount.pose.tolist()
+    x, y, z, scalar, i, j, k = base_pose.pose.tolist()
     return pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
 
 

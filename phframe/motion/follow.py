@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from phframe.core import FloatArray
 from phframe.motion.pinocchio_ import Kinematics, least_squares
 from phframe.motion.posture import Posture
-from phframe.core import FloatArray
 
 REACHED = 1e-6
 """What is left of position (m) and turn (rad) together when a pose counts as reached."""

@@ -9,9 +9,9 @@ from types import ModuleType
 
 import numpy as np
 
+from phframe.core import ArmError, FloatArray, NotInstalledError, UnknownNameError
 from phframe.motion.edges import Edges
 from phframe.motion.path_shortcutting import shortened
-from phframe.core import ArmError, FloatArray, NotInstalledError, UnknownNameError
 
 DEFAULT = "RRTConnect"
 """Among those that found a way in all of 65 problems on Baxter at a shelf, given rounds enough, the fastest."""
@@ -51,7 +51,7 @@ def joint_path(
         resolution: Most that a joint moves between two configurations that are looked at (rad or m), above 0.
         iterations: Rounds of the planner after which it gives up.
         seconds: Time after which it gives up too, which does not repeat.
-        rng: The only source of chance.
+        rng: The only source of randomness.
 
     Returns:
         None if nothing was found, or the start or all goals are not valid or beyond the limits.

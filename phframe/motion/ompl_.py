@@ -12,12 +12,12 @@ from ompl import base as ob
 from ompl import geometric as og
 from ompl import util as ou
 
+from phframe.core import FloatArray
 from phframe.motion.biest_ import BiEST
 from phframe.motion.edges import Edges
-from phframe.core import FloatArray
 
 REACH = 0.1
-"""Longest edge that a planner draws, as a share of the diagonal of the joint limits; measured, on Baxter at a shelf."""
+"""Longest edge that a planner draws, as a fraction of the diagonal of the joint limits; measured, on Baxter at a shelf."""
 BIEST_REACH = 0.14
 """The range of BiEST, likewise."""
 SEEDS = 2**31
@@ -46,7 +46,7 @@ def search(
         edges: Says what is valid. What it raises comes out of here as it is.
         planner: One of OMPL's class names, or BiEST.
         stop: Asked by the planner in each of its rounds.
-        rng: The only source of chance.
+        rng: The only source of randomness.
     """
     with _silence():
         ou.RNG.setSeed(int(rng.integers(1, SEEDS)))

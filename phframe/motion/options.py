@@ -14,7 +14,7 @@ class ArticulatedOptions(Options):
 
     Attributes:
         motion_planner: Outside the shelf: a planner of OMPL, or BiEST.
-        joint_speed: Share of the joints' greatest speeds that is made use of.
+        joint_speed: Fraction of the joints' greatest speeds that is made use of.
         joint_acceleration: Of every joint (rad/s^2 or m/s^2).
         gripper_acceleration: Of the fingertip along a path (m/s^2).
         finger_acceleration: Of the opening (m/s^2).

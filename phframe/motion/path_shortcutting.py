@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from phframe.motion.edges import Edges
 from phframe.core import FloatArray
+from phframe.motion.edges import Edges
 
 TRIES = 40
 """Shortcuts tried between places drawn at random."""
@@ -22,7 +22,7 @@ def shortened(path: FloatArray, edges: Edges, rng: np.random.Generator) -> Float
     Args:
         path: Valid waypoints ``(k, dof)``.
         edges: Says which straight lines are valid.
-        rng: The only source of chance.
+        rng: The only source of randomness.
     """
     path, vain = _without_corners(path, edges), 0
     for _ in range(TRIES):
@@ -45,7 +45,7 @@ def _without_corners(path: FloatArray, edges: Edges) -> FloatArray:
 
 def _shortcut(path: FloatArray, edges: Edges, rng: np.random.Generator) -> FloatArray | None:
     """The path with one shortcut, or None where the places drawn do not allow one."""
-    (first, start), (last, end) = (_place(path, edges, share) for share in np.sort(rng.random(2)).tolist())
+    (first, start), (last, end) = (_place(path, edges, fraction) for fraction in np.sort(rng.random(2)).tolist())
     if first == last or not edges.allowed(start, end):
         return None
     joined = np.vstack([path[: first + 1], start, end, path[last + 1 :]])
@@ -53,11 +53,11 @@ def _shortcut(path: FloatArray, edges: Edges, rng: np.random.Generator) -> Float
     return np.asarray(joined[np.concatenate([[True], moved])])
 
 
-def _place(path: FloatArray, edges: Edges, share: float) -> tuple[int, FloatArray]:
-    """The place ``(dof,)`` on the path at a share of its length, and the edge it is on; one where that was looked at."""
+def _place(path: FloatArray, edges: Edges, fraction: float) -> tuple[int, FloatArray]:
+    """The place ``(dof,)`` on the path at a fraction of its length, and the edge it is on; one where that was looked at."""
     lengths = np.linalg.norm(np.diff(path, axis=0), axis=1)
     ends = np.cumsum(lengths)
-    along = share * ends[-1]
+    along = fraction * ends[-1]
     edge = min(int(np.searchsorted(ends, along)), len(lengths) - 1)
     steps = edges.steps(path[edge], path[edge + 1])
     step = round(steps * float(along - ends[edge] + lengths[edge]) / float(lengths[edge]))

@@ -9,7 +9,6 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from phframe.motion.trapezoidal_velocity import Ramp, ramp
 from phframe.core import (
     Contacts,
     FloatArray,
@@ -28,6 +27,7 @@ from phframe.core import (
     starting_from,
     yaw_of,
 )
+from phframe.motion.trapezoidal_velocity import Ramp, ramp
 
 SPACING = 0.02
 """Between samples (s)."""
@@ -89,12 +89,12 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
         return seen, state.arm.commanded_opening
 
     def _seen_from_above(self, joints: FloatArray) -> FloatArray:
-        pose = compose(self.mount.pose, self.arm.forward(joints))
+        pose = compose(self.base_pose.pose, self.arm.forward(joints))
         return np.array([pose[0], pose[1], yaw_of(pose)])
 
     def _joints_at(self, path: GripperPath) -> FloatArray | Unreachable:
         """Joint values ``(m, 3)`` at the corners; limits are the same for x, y and yaw all along, so corners suffice."""
-        base, found = inverse(self.mount.pose), []
+        base, found = inverse(self.base_pose.pose), []
         for corner, (x, y, yaw) in enumerate(path.poses.tolist()):
             q = self.arm.inverse(compose(base, planar_pose(x, y, self.arm.shape.height, yaw)))
             if q is None:
@@ -136,7 +136,7 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
         for leg in legs:
             t = leg.ramp.times(SPACING)[1:]
             times.append(times[-1][-1] + t)
-            knots.append(leg.start + leg.ramp.share(t)[:, None] * leg.step)
+            knots.append(leg.start + leg.ramp.fraction(t)[:, None] * leg.step)
             speeds.append(leg.ramp.rate(t)[:, None] * leg.step)
             phases += [leg.phase] * len(t)
         poses, openings = np.vstack(knots)[:, :3], np.vstack(knots)[:, 3]
@@ -145,7 +145,7 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
 
     def _in_base(self, first: FloatArray, poses: FloatArray, speeds: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Joint values and speeds ``(k, 3)``: the poses as the base sees them, from the first joint values on."""
-        c, s = np.cos(self.mount.yaw), np.sin(self.mount.yaw)
+        c, s = np.cos(self.base_pose.yaw), np.sin(self.base_pose.yaw)
         turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         return first + (poses - poses[0]) @ turned, speeds @ turned
 

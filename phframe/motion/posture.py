@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from phframe.urdf.description import Section
+from phframe.core import FloatArray, Shelf
 from phframe.motion.pinocchio_ import Kinematics
 from phframe.motion.surface_points import Skin
-from phframe.core import FloatArray, Shelf
+from phframe.urdf.description import Section
 
 WALL_ROOM = 0.02
 """Wished for between the arm and the shelf (m)."""
@@ -22,7 +22,7 @@ OBSTACLE_ROOM, OBSTACLE_WEIGHT = 0.01, 4.0
 LIMIT_SHARE = 0.85
 """Of a joint's range, about its middle: to be kept to."""
 LIMIT_WEIGHT, CENTER_WEIGHT = 0.3, 0.003
-"""What a share of a joint's range beyond that counts, and one of the range itself (m)."""
+"""What a fraction of a joint's range beyond that counts, and one of the range itself (m)."""
 MOUTH_ROOM = 0.05
 """What is farther than this before the mouth (m) meets no wall of the shelf."""
 
@@ -63,11 +63,11 @@ class Posture:
         points, speeds = self._skin.seen(q, direction)
         width, width_slope = self._too_wide(points, speeds, gripper)
         room, room_slope = self._too_near(points, speeds)
-        share, rate = (q - self._middle) / self._half, direction / self._half
-        beyond = np.maximum(np.abs(share) - LIMIT_SHARE, 0.0)
-        limit_slope = np.where(beyond > 0.0, np.sign(share) * rate, 0.0)
+        fraction, rate = (q - self._middle) / self._half, direction / self._half
+        beyond = np.maximum(np.abs(fraction) - LIMIT_SHARE, 0.0)
+        limit_slope = np.where(beyond > 0.0, np.sign(fraction) * rate, 0.0)
         near, near_slope = self._too_near_obstacles(points, speeds)
-        residuals = (width, room, near, LIMIT_WEIGHT * beyond, CENTER_WEIGHT * share)
+        residuals = (width, room, near, LIMIT_WEIGHT * beyond, CENTER_WEIGHT * fraction)
         slopes = (width_slope, room_slope, near_slope, LIMIT_WEIGHT * limit_slope, CENTER_WEIGHT * rate)
         return np.concatenate(residuals), np.concatenate(slopes)
 

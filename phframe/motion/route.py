@@ -8,9 +8,9 @@ from itertools import groupby
 
 import numpy as np
 
+from phframe.core import FloatArray, GripperPath, IntArray, Phase, PhaseRule, Unreachable
 from phframe.motion.track import MOUTH_ZONE, Track, Tracker
 from phframe.motion.waypoints import SPACING, Waypoints
-from phframe.core import FloatArray, GripperPath, IntArray, Phase, PhaseRule, Unreachable
 
 OUTSIDE = -0.02
 """The fingertip has left the shelf when it is farther out than this (m)."""

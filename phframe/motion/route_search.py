@@ -10,11 +10,11 @@ from itertools import cycle, islice
 
 import numpy as np
 
+from phframe.core import FloatArray, Unreachable
 from phframe.motion.follow import Follower
 from phframe.motion.pinocchio_ import Kinematics
 from phframe.motion.route import Route, Router
 from phframe.motion.track import Tracker
-from phframe.core import FloatArray, Unreachable
 
 ALIKE = 0.2
 """Postures that differ by less than this in every joint (rad or m) are tried once."""
@@ -71,12 +71,12 @@ class RouteSearch:
         self._failed: list[Trial] = []
 
     def routes(self, seeds: Sequence[FloatArray], attempts: int, rng: np.random.Generator) -> Iterator[Route]:
-        """Routes, the narrowest first: near seeds ``(dof,)``; else turned against the path; else by chance.
+        """Routes, the narrowest first: near seeds ``(dof,)``; else turned against the path; else at random.
 
         Args:
             seeds: Where to look first.
-            attempts: Postures to be tried by chance.
-            rng: The only source of chance.
+            attempts: Postures to be tried at random.
+            rng: The only source of randomness.
         """
         gate, by_chance = self._router.gate, self._by_chance(attempts, rng)
         yield from self._made(self._tried(self._postures((seed, gate) for seed in seeds)))

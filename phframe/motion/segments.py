@@ -8,8 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from phframe.motion.route import Route
 from phframe.core import FloatArray, GripperPath, Phase, PhaseRule
+from phframe.motion.route import Route
 
 JOINT_STEP = 0.05
 """Between the values of a joint on a free way (rad or m)."""
@@ -39,8 +39,8 @@ def free_way(corners: FloatArray, opening: float, end_opening: float) -> Iterato
     openings = np.linspace(opening, end_opening, len(corners))
     for (begin, end), (first, last) in zip(pairwise(corners), pairwise(openings), strict=True):
         steps = max(2, int(np.ceil(np.abs(end - begin).max() / JOINT_STEP)) + 1)
-        share = np.linspace(0.0, 1.0, steps)
-        yield Stretch(begin + share[:, None] * (end - begin), first + share * (last - first), Phase.APPROACH)
+        fraction = np.linspace(0.0, 1.0, steps)
+        yield Stretch(begin + fraction[:, None] * (end - begin), first + fraction * (last - first), Phase.APPROACH)
 
 
 def legs_of(route: Route, path: GripperPath, opening: float) -> Iterator[Stretch]:

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from phframe.core import BasePose, FloatArray, rotation_matrix
 from phframe.motion.pinocchio_ import Kinematics
-from phframe.urdf.solids import FACETS, ORIGIN, Solid, Vector, rotation
 from phframe.urdf.reader import Robot
-from phframe.core import FloatArray, Mount, turn
+from phframe.urdf.solids import FACETS, ORIGIN, Solid, Vector, rotation
 
 AROUND, ALONG = 8, 5
 """Points around a cylinder, and rings of them along it."""
@@ -23,19 +23,19 @@ class Skin:
         robot: Its links.
         joints: Names of its joints, from the base to the gripper.
         tip: The gripper's link, which is not looked at: it goes wherever the gripper does.
-        mount: Where the base stands.
+        base_pose: Where the base stands.
         depth: Of the shelf (m).
     """
 
     def __init__(
-        self, kinematics: Kinematics, robot: Robot, joints: Sequence[str], tip: str, mount: Mount, depth: float
+        self, kinematics: Kinematics, robot: Robot, joints: Sequence[str], tip: str, base_pose: BasePose, depth: float
     ) -> None:
         self._kinematics = kinematics
         inside = _links_inside(robot, joints, tip, depth)
         self._points = {row: np.vstack(found) for row, name in inside if (found := list(_covers(robot, name, tip)))}
         self._axes = np.eye(3)
-        self._axes[:2, :2] = turn(mount.yaw)
-        self._at = np.array([mount.x, mount.y, mount.z])
+        self._axes[:2, :2] = rotation_matrix(base_pose.yaw)
+        self._at = np.array([base_pose.x, base_pose.y, base_pose.z])
 
     def seen(self, q: FloatArray, direction: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The points ``(k, 3)`` in the shelf frame (m), and how they move as joints move in a direction ``(dof,)``."""
@@ -86,4 +86,4 @@ def _points(solid: Solid) -> FloatArray:
     if solid.kind != "cylinder":
         return corners
     rims = corners.reshape(2, FACETS, 3)[:, :: FACETS // AROUND]
-    return np.vstack([rims[0] + share * (rims[1] - rims[0]) for share in np.linspace(0.0, 1.0, ALONG)])
+    return np.vstack([rims[0] + fraction * (rims[1] - rims[0]) for fraction in np.linspace(0.0, 1.0, ALONG)])

@@ -7,20 +7,20 @@ from typing import Any
 
 import numpy as np
 
-from phframe.motion.options import ArticulatedOptions
-from phframe.motion.segments import Stretch
-from phframe.motion.toppra_ import Timed, timed
 from phframe.core import (
     ArmModel,
+    BasePose,
     FloatArray,
     GripperTrajectory,
     JointTrajectory,
-    Mount,
     Phase,
     PhaseRule,
     compose,
     yaw_of,
 )
+from phframe.motion.options import ArticulatedOptions
+from phframe.motion.segments import Stretch
+from phframe.motion.toppra_ import Timed, timed
 
 UNBOUNDED = 1e3
 """Limit of what has no limit of its own: it comes along with what has."""
@@ -33,12 +33,12 @@ class Scheduler:
 
     Args:
         arm: The arm.
-        mount: Where it stands.
+        base_pose: Where it stands.
         options: Speeds and accelerations.
     """
 
-    def __init__(self, arm: ArmModel[Any], mount: Mount, options: ArticulatedOptions) -> None:
-        self._arm, self._mount, self._options = arm, mount, options
+    def __init__(self, arm: ArmModel[Any], base_pose: BasePose, options: ArticulatedOptions) -> None:
+        self._arm, self._base_pose, self._options = arm, base_pose, options
         self._joint_speeds = np.array([joint.velocity for joint in arm.joints]) * options.joint_speed
         self._finger_speed = 2.0 * min(joint.velocity for joint in arm.fingers.joints)
 
@@ -76,7 +76,7 @@ class Scheduler:
         return timed(path, self._speeds(stretch.rule), self._accelerations(stretch.rule))
 
     def _seen_from_above(self, joints: FloatArray) -> FloatArray:
-        poses = [compose(self._mount.pose, self._arm.forward(q)) for q in joints]
+        poses = [compose(self._base_pose.pose, self._arm.forward(q)) for q in joints]
         seen = np.array([[pose[0], pose[1], yaw_of(pose)] for pose in poses])
         seen[:, 2] = np.unwrap(seen[:, 2])
         return seen

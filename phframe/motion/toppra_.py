@@ -11,8 +11,8 @@ import toppra
 import toppra.algorithm
 import toppra.constraint
 
-from phframe.motion.trapezoidal_velocity import ramp
 from phframe.core import FloatArray, IntArray
+from phframe.motion.trapezoidal_velocity import ramp
 
 SPACING = 0.02
 """Between samples (s)."""
@@ -52,16 +52,16 @@ def timed(path: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Ti
     path = path[_apart(path, speeds)]
     if len(path) < 2:
         return Timed(np.array([0.0, SPACING]), path[[0, 0]], np.zeros((2, path.shape[1])))
-    share = np.concatenate([[0.0], np.cumsum(_seconds(path, speeds))])
-    spline = toppra.SplineInterpolator(share, path)
-    grid = share if len(share) >= LEAST_GRID else np.linspace(0.0, share[-1], LEAST_GRID)
+    fraction = np.concatenate([[0.0], np.cumsum(_seconds(path, speeds))])
+    spline = toppra.SplineInterpolator(fraction, path)
+    grid = fraction if len(fraction) >= LEAST_GRID else np.linspace(0.0, fraction[-1], LEAST_GRID)
     found: list[Timed] = []
     for _ in range(GRIDS):
         found += _quickest(spline, grid, speeds, accelerations)
-        if found and not _creeps(found[-1], share):
+        if found and not _creeps(found[-1], fraction):
             return found[-1]
         grid = _divided(grid)
-    return min([*found, _evenly(spline, share, speeds, accelerations)], key=lambda way: float(way.times[-1]))
+    return min([*found, _evenly(spline, fraction, speeds, accelerations)], key=lambda way: float(way.times[-1]))
 
 
 def _apart(path: FloatArray, speeds: FloatArray) -> IntArray:
@@ -86,10 +86,10 @@ def _seconds(path: FloatArray, speeds: FloatArray) -> FloatArray:
     return np.asarray((np.abs(np.diff(path, axis=0)) / speeds).max(axis=1))
 
 
-def _creeps(found: Timed, share: FloatArray) -> bool:
+def _creeps(found: Timed, fraction: FloatArray) -> bool:
     """Whether a way takes far longer than a path should."""
     times, besides = CREEPING
-    return float(found.times[-1]) > times * float(share[-1]) + besides
+    return float(found.times[-1]) > times * float(fraction[-1]) + besides
 
 
 def _divided(grid: FloatArray) -> FloatArray:
@@ -113,16 +113,16 @@ def _quickest(spline: Any, grid: FloatArray, speeds: FloatArray, accelerations: 
     return [Timed(times, np.asarray(found(times)), np.asarray(found(times, 1)))]
 
 
-def _evenly(spline: Any, share: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Timed:
+def _evenly(spline: Any, fraction: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Timed:
     """A way along a spline as slow all along as where it has to be slowest."""
-    looks = _divided(_divided(share))
+    looks = _divided(_divided(fraction))
     slope, bend = np.abs(spline(looks, 1)), np.abs(spline(looks, 2))
     fastest = 1.0 / float((slope / speeds).max())
     curved = float((bend / accelerations).max())
     if curved > 0.0:  # half of the acceleration is for the bends, the other half for getting faster
         fastest = min(fastest, float(np.sqrt(0.5 / curved)))
     gain = 0.5 / float((slope / accelerations).max())
-    found, length = ramp(float(share[-1]) / fastest, fastest / gain), float(share[-1])
+    found, length = ramp(float(fraction[-1]) / fastest, fastest / gain), float(fraction[-1])
     times = found.times(SPACING)
-    at = found.share(times) * length
+    at = found.fraction(times) * length
     return Timed(times, np.asarray(spline(at)), np.asarray(spline(at, 1)) * (found.rate(times) * length)[:, None])

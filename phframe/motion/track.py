@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pinocchio
 
+from phframe.core import ArmModel, BasePose, Contacts, FloatArray, PhaseRule, Scene, State
 from phframe.motion.coal_ import CollisionModel, placement
 from phframe.motion.follow import Follower
-from phframe.core import ArmModel, Contacts, FloatArray, Mount, PhaseRule, Scene, State
 
 MOUTH_ZONE = 0.05
 """With less than this of the fingers in the shelf (m), the gripper may turn away from the path's yaw."""
@@ -53,16 +53,16 @@ class Tracker:
     Args:
         follower: Takes the joints from pose to pose.
         collisions: What must not be hit.
-        mount: Of the arm.
+        base_pose: Of the arm.
         arm: The arm.
         scene: Whose objects may be touched or not.
     """
 
     def __init__(
-        self, follower: Follower, collisions: CollisionModel, mount: Mount, arm: ArmModel[Any], scene: Scene
+        self, follower: Follower, collisions: CollisionModel, base_pose: BasePose, arm: ArmModel[Any], scene: Scene
     ) -> None:
         self._follower, self._collisions, self._scene = follower, collisions, scene
-        self._base, self._height = placement(mount).inverse(), arm.shape.height
+        self._base, self._height = placement(base_pose).inverse(), arm.shape.height
         self._names = [joint.name for joint in arm.joints]
         self._closed = np.array([joint.lower for joint in arm.fingers.joints])
         self._least = arm.shape.min_opening
@@ -160,8 +160,8 @@ class Tracker:
 
 def _turned(poses: FloatArray, turn: float, begin: float) -> FloatArray:
     """Poses with a turn that grows on the way out."""
-    shares = np.clip((begin - poses[:, 0]) / MOUTH_ZONE, 0.0, 1.0)
-    return poses + np.column_stack([np.zeros((len(poses), 2)), turn * shares])
+    fractions = np.clip((begin - poses[:, 0]) / MOUTH_ZONE, 0.0, 1.0)
+    return poses + np.column_stack([np.zeros((len(poses), 2)), turn * fractions])
 
 
 def _track(

@@ -13,7 +13,7 @@ from phframe.core import FloatArray
 
 @dataclass(frozen=True, slots=True)
 class Ramp:
-    """A share of a leg, 0 to 1, over time: even acceleration, full speed, even deceleration.
+    """A fraction of a leg, 0 to 1, over time: even acceleration, full speed, even deceleration.
 
     Attributes:
         peak: Greatest rate (1/s).
@@ -31,7 +31,7 @@ class Ramp:
         spans = [np.linspace(a, b, math.ceil((b - a) / spacing - 1e-9) + 1) for a, b in pairwise(corners)]
         return np.concatenate([[0.0], *(span[1:] for span in spans if span[-1] > span[0] + 1e-9)])
 
-    def share(self, times: FloatArray) -> FloatArray:
+    def fraction(self, times: FloatArray) -> FloatArray:
         """How far along the leg one is ``(k,)``."""
         t, left = np.minimum(times, self.rising), np.maximum(times - self.duration + self.rising, 0.0)
         cruising = np.clip(times - self.rising, 0.0, self.duration - 2.0 * self.rising)

@@ -39,8 +39,8 @@ def waypoints(path: GripperPath) -> Waypoints:
     poses, legs = [path.poses[:1]], [0]
     for leg, (start, end) in enumerate(zip(path.poses[:-1], path.poses[1:], strict=True)):
         count = _steps(end - start)
-        shares = np.arange(1, count + 1)[:, None] / count
-        poses.append(start + shares * (end - start))
+        fractions = np.arange(1, count + 1)[:, None] / count
+        poses.append(start + fractions * (end - start))
         legs += [leg] * count
     found = np.vstack(poses)
     ways = np.hypot(*np.diff(found[:, :2], axis=0).T)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from phframe.core import FloatArray, Plan, Planner, Task
-from phframe.pushing.deviation import Choice
 from phframe.pushing.clear import Clearing
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import usable_radii
 
@@ -18,7 +18,7 @@ class PHIA(Planner[PushingOptions]):
         """Greedy: one action per configuration, no search tree."""
         return Clearing(task, self.options, self._choose_radius).run()
 
-    def _choose_radius(self, deaths: FloatArray, threshold: float) -> tuple[float, tuple[Choice, ...]]:
+    def _choose_radius(self, deaths: FloatArray, threshold: float) -> tuple[float, tuple[Deviation, ...]]:
         """The smallest usable radius; where there is none, the threshold h."""
         radii = usable_radii(deaths, self.options.margin, threshold)
-        return (float(radii[0]), ()) if len(radii) else (threshold, (Choice.FALLBACK_RADIUS,))
+        return (float(radii[0]), ()) if len(radii) else (threshold, (Deviation.FALLBACK_RADIUS,))

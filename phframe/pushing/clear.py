@@ -6,17 +6,17 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from phframe.core import Action, Decision, FloatArray, Infeasible, Plan, State, Status, Task, Transition
-from phframe.pushing.deviation import Choice
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.outcome import grasp_outcome
+from phframe.pushing.push_problem import Pushing, PushProblem
 from phframe.pushing.reach import Grasp
-from phframe.pushing.push_problem import Pushing, Situation
 
 UNCHANGED = 1e-3
 """No object moved more than this (m): the action failed."""
 
-ChooseRadius = Callable[[FloatArray, float], tuple[float, tuple[Choice, ...]]]
-"""From the finite deaths ``(k,)`` (m) and the threshold h (m) to the radius (m) and the settlements it needed."""
+ChooseRadius = Callable[[FloatArray, float], tuple[float, tuple[Deviation, ...]]]
+"""From the finite deaths ``(k,)`` (m) and the threshold h (m) to the radius (m) and the deviations it needed."""
 
 
 Tried = tuple[Decision, Action, Transition]
@@ -45,39 +45,39 @@ class Clearing:
         also: tuple[str, ...] = ()
         rounds_for_grasp = 1
         while True:
-            situation = self._pushing.situation(self._state, also)
-            if isinstance(situation, Infeasible):
-                return self._failed(situation.reason)
-            if len(situation.members):
-                if failure := self._push(situation, blocked=bool(also)):
+            problem = self._pushing.problem(self._state, also)
+            if isinstance(problem, Infeasible):
+                return self._failed(problem.reason)
+            if len(problem.members):
+                if failure := self._push(problem, blocked=bool(also)):
                     return self._failed(f"grasp blocked by {', '.join(also)}: {failure}" if also else failure)
                 also = ()
                 continue
-            grasp = self._pushing.grasp(situation)
+            grasp = self._pushing.grasp(problem)
             if isinstance(grasp, Grasp):
-                return self._grasp(situation, grasp)
+                return self._grasp(problem, grasp)
             if not grasp.blockers or not rounds_for_grasp:
                 return self._failed(grasp.reason)
             also, rounds_for_grasp = grasp.blockers, rounds_for_grasp - 1
 
-    def _push(self, situation: Situation, *, blocked: bool) -> str | None:
+    def _push(self, problem: PushProblem, *, blocked: bool) -> str | None:
         """Carry out one push; why not, where that fails."""
         if len(self._actions) >= self._options.max_actions:
             return f"the corridor is not empty after {len(self._actions)} actions"
         if self._since_progress >= self._options.patience:
             return f"the last {self._since_progress} pushes took nothing out of the corridor"
-        diagram = self._pushing.diagram(situation)
-        radius, choices = self._choose_radius(diagram.finite_deaths, self._pushing.threshold)
-        choices = (*choices, Choice.GRASP_BLOCKED) if blocked else choices
-        tried = self._try_all(self._pushing.pushes(situation, diagram, radius, choices))
+        diagram = self._pushing.diagram(problem)
+        radius, deviations = self._choose_radius(diagram.finite_deaths, self._pushing.threshold)
+        deviations = (*deviations, Deviation.GRASP_BLOCKED) if blocked else deviations
+        tried = self._try_all(self._pushing.pushes(problem, diagram, radius, deviations))
         if tried is None:
             return "no sweep fits beside the closest component"
         decision, action, transition = tried
         if (transition.state.displacement(self._state) <= UNCHANGED).all():
             return f"nothing moved: {action.name}"
         self._keep(decision, action, transition)
-        fewer = len(situation.members) < self._fewest
-        self._fewest = min(self._fewest, len(situation.members))
+        fewer = len(problem.members) < self._fewest
+        self._fewest = min(self._fewest, len(problem.members))
         self._since_progress = 0 if fewer else self._since_progress + 1
         return None
 
@@ -86,24 +86,24 @@ class Clearing:
         best: tuple[int, Tried] | None = None
         for number, (decision, action) in enumerate(proposals):
             transition = self._task.apply(self._state, action)
-            harm = self._harm(transition)
-            if best is None or harm < best[0]:
-                choices = (*decision.choices, Choice.NEXT_SWEEP) if number else decision.choices
-                best = harm, (replace(decision, choices=choices), action, transition)
-            if harm == 0:
+            penalty = self._penalty(transition)
+            if best is None or penalty < best[0]:
+                deviations = (*decision.deviations, Deviation.NEXT_SWEEP) if number else decision.deviations
+                best = penalty, (replace(decision, deviations=deviations), action, transition)
+            if penalty == 0:
                 break
         return best[1] if best else None
 
-    def _harm(self, transition: Transition) -> int:
+    def _penalty(self, transition: Transition) -> int:
         """0 where a push did what it should; more for a spill, a stall and a push that moved nothing."""
         spilled = int((self._state.on_board & ~transition.state.on_board).sum())
         unchanged = bool((transition.state.displacement(self._state) <= UNCHANGED).all())
         return spilled + 100 * (not transition.motion.complete) + 10000 * unchanged
 
-    def _grasp(self, situation: Situation, grasp: Grasp) -> Plan:
+    def _grasp(self, problem: PushProblem, grasp: Grasp) -> Plan:
         """The last action: reach, grasp, withdraw."""
         transition = self._task.apply(self._state, grasp.action)
-        self._keep(Decision(corridor=situation.corridor, choices=grasp.choices), grasp.action, transition)
+        self._keep(Decision(corridor=problem.corridor, deviations=grasp.deviations), grasp.action, transition)
         motion, half_width = transition.motion, self._pushing.half_width
         path = grasp.action.path
         status, reason = grasp_outcome(

@@ -5,8 +5,8 @@ from __future__ import annotations
 from enum import StrEnum
 
 
-class Choice(StrEnum):
-    """Phframe's settlements of what the paper leaves open, counted in every plan."""
+class Deviation(StrEnum):
+    """Phframe's deviations of what the paper leaves open, counted in every plan."""
 
     FALLBACK_RADIUS = "fallback radius"
     """No radius is usable, so the threshold h itself is taken."""

@@ -33,7 +33,7 @@ WALL_CLEARANCE = 0.002
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Situation:
+class PushProblem:
     """One state, its corridor and the obstacles that must go.
 
     Attributes:
@@ -65,7 +65,7 @@ class Pushing:
         obstacles = np.delete(self._radii, task.scene.target_index)
         self.threshold = usable_threshold(options.insertion_width, float(obstacles.max(initial=0.0)))
 
-    def situation(self, state: State, also: tuple[str, ...] = ()) -> Situation | Infeasible:
+    def problem(self, state: State, also: tuple[str, ...] = ()) -> PushProblem | Infeasible:
         """What is in the way to the target.
 
         Args:
@@ -81,72 +81,72 @@ class Pushing:
         counts = corridor.contains(state.positions) | np.isin(scene.ids, also)
         counts[row] = False
         members = np.flatnonzero(counts & state.on_board)
-        return Situation(state, corridor, members, corridor.to_local(state.positions[members]))
+        return PushProblem(state, corridor, members, corridor.to_local(state.positions[members]))
 
-    def diagram(self, situation: Situation) -> PersistenceDiagram:
+    def diagram(self, problem: PushProblem) -> PersistenceDiagram:
         """The persistence diagram of the obstacles that count."""
-        return self.task.diagram(situation.local)
+        return self.task.diagram(problem.local)
 
     def pushes(
-        self, situation: Situation, diagram: PersistenceDiagram, radius: float, choices: tuple[str, ...] = ()
+        self, problem: PushProblem, diagram: PersistenceDiagram, radius: float, deviations: tuple[str, ...] = ()
     ) -> Iterator[tuple[Decision, Action]]:
         """The pushes of the closest component at a radius, best first, without those that were rejected.
 
         Args:
-            situation: With at least one member.
+            problem: With at least one member.
             diagram: Of its members.
             radius: At which to group (m).
-            choices: Settlements that led to the radius.
+            deviations: Deviations that led to the radius.
         """
-        labels = self.task.components(situation.local, radius)
-        chosen = closest_component(situation.local, labels, situation.corridor.axis)
+        labels = self.task.components(problem.local, radius)
+        chosen = closest_component(problem.local, labels, problem.corridor.axis)
         persistent = persistent_radii(diagram.finite_deaths, self.options.margin)
-        for decision, action in self.sweeps(situation, chosen):
+        for decision, action in self.sweeps(problem, chosen):
             grouped = replace(
                 decision,
                 diagram=diagram,
                 persistent_radii=tuple(persistent.tolist()),
                 radius=radius,
                 labels=labels,
-                choices=(*choices, *decision.choices),
+                deviations=(*deviations, *decision.deviations),
             )
             yield grouped, action
 
-    def sweeps(self, situation: Situation, chosen: IntArray) -> Iterator[tuple[Decision, Action]]:
+    def sweeps(self, problem: PushProblem, chosen: IntArray) -> Iterator[tuple[Decision, Action]]:
         """The sweeps of any group of members, best first, without those that were rejected.
 
         Args:
-            situation: With at least one member.
+            problem: With at least one member.
             chosen: Indices ``(k,)`` of the group among the members.
         """
-        ids, corridor = self.task.scene.ids, situation.corridor
-        names = tuple(ids[row] for row in situation.members[chosen])
-        geometry = self._geometry(situation, chosen)
+        ids, corridor = self.task.scene.ids, problem.corridor
+        names = tuple(ids[row] for row in problem.members[chosen])
+        geometry = self._geometry(problem, chosen)
         for push in geometry.pushes():
             action = push_action(corridor, push.sweep, names, self.task.arm.min_opening, self.options)
             if action in self.task.rejected:
                 continue
             decision = Decision(
                 corridor=corridor,
-                members=tuple(ids[row] for row in situation.members),
+                members=tuple(ids[row] for row in problem.members),
                 chosen=names,
                 rectangle=geometry.rectangle,
                 sweep=push.sweep,
-                choices=push.choices,
+                deviations=push.deviations,
             )
             yield decision, action
 
-    def grasp(self, situation: Situation) -> Grasp | Infeasible:
+    def grasp(self, problem: PushProblem) -> Grasp | Infeasible:
         """The reach, grasp and withdrawal along the corridor, if the target can be got at without what was rejected."""
         task = self.task
-        return grasp_action(task.scene, situation.state, situation.corridor, task.arm, self.options, task.rejected)
+        return grasp_action(task.scene, problem.state, problem.corridor, task.arm, self.options, task.rejected)
 
-    def _geometry(self, situation: Situation, chosen: IntArray) -> SweepGeometry:
+    def _geometry(self, problem: PushProblem, chosen: IntArray) -> SweepGeometry:
         scene = self.task.scene
         return SweepGeometry(
-            situation.corridor,
-            situation.local[chosen],
-            float(self._radii[situation.members[chosen]].max()),
+            problem.corridor,
+            problem.local[chosen],
+            float(self._radii[problem.members[chosen]].max()),
             float(self._radii[scene.target_index]),
             self._view,
         )

@@ -22,10 +22,10 @@ from phframe.core import (
     PhaseRule,
     Scene,
     State,
-    turn,
+    rotation_matrix,
 )
 from phframe.geometry.arm_view import ArmView
-from phframe.pushing.deviation import Choice
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.options import PushingOptions
 
 YAW_STEPS = tuple(math.radians(degrees) for degrees in (0, 5, -5, 10, -10, 15, -15))
@@ -46,11 +46,11 @@ class Grasp:
 
     Attributes:
         action: What to do.
-        choices: The settlements it needed, by name.
+        deviations: The deviations it needed, by name.
     """
 
     action: Action
-    choices: tuple[Choice, ...] = ()
+    deviations: tuple[Deviation, ...] = ()
 
 
 def grasp_action(
@@ -81,23 +81,23 @@ def grasp_action(
         if opening > arm.max_opening:
             continue
         view = ArmView(scene.shelf, arm.outlines(opening), NEIGHBOUR_CLEARANCE)
-        for deviation in YAW_STEPS:
-            if math.cos(corridor.angle + deviation) < LEAST_AHEAD:
+        for yaw_offset in YAW_STEPS:
+            if math.cos(corridor.angle + yaw_offset) < LEAST_AHEAD:
                 continue
-            reach = _Reach(scene, state, corridor.angle + deviation, view, past)
+            reach = _Reach(scene, state, corridor.angle + yaw_offset, view, past)
             obstruction = reach.obstruction()
             if obstruction is None:
                 action = reach.action(opening, radius, arm.min_opening, options)
                 if action not in rejected:
-                    return Grasp(action, _choices(fit, deviation))
+                    return Grasp(action, _deviations(fit, yaw_offset))
                 obstruction = Infeasible("the arm cannot do any grasp that nothing blocks")
             least = min(obstruction, least, key=_severity)
     return least
 
 
-def _choices(fit: int, deviation: float) -> tuple[Choice, ...]:
-    turned = (Choice.GRASP_TURNED,) if deviation else ()
-    return (*turned, Choice.GRASP_TIGHT) if fit else turned
+def _deviations(fit: int, yaw_offset: float) -> tuple[Deviation, ...]:
+    turned = (Deviation.GRASP_TURNED,) if yaw_offset else ()
+    return (*turned, Deviation.GRASP_TIGHT) if fit else turned
 
 
 def _severity(obstruction: Infeasible) -> tuple[bool, int]:
@@ -128,7 +128,7 @@ class _Reach:
 
     def _blocked(self) -> NDArray[np.bool_]:
         """Mask ``(n,)`` of the objects that the arm would touch on its way in."""
-        local = (self._state.positions - self._tip) @ turn(self._yaw)
+        local = (self._state.positions - self._tip) @ rotation_matrix(self._yaw)
         lower, upper = self._boxes
         distance = distances_on_way_in(local, lower, upper, self._length).min(axis=0)
         distance[self._scene.target_index] = np.inf

@@ -10,10 +10,10 @@ import numpy as np
 
 from phframe.core import Corridor, FloatArray
 from phframe.geometry.arm_view import ArmView
-from phframe.pushing.deviation import Choice
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.grouping import bounding_rectangle
 from phframe.pushing.reach import LEAST_AHEAD
-from phframe.pushing.tilted_sweep import Choices, Component, Direction, Push, TiltedSweep
+from phframe.pushing.tilted_sweep import Component, Deviations, Direction, Push, TiltedSweep
 
 TILTS = tuple(math.radians(degrees) for degrees in (0.0, 10.0, -10.0, 20.0, -20.0, 30.0, -30.0))
 """Of the arm against the corridor, the way it pushes, tried in this order (rad)."""
@@ -48,8 +48,8 @@ class SweepGeometry:
         other: Direction = -1 if direction == 1 else 1
         second_best: list[Push] = []
         third_best: list[Push] = []
-        for way, choices in ((direction, ()), (other, (self._why_other(other),))):
-            pushes = list(_until_one_clears(self._tilted(way, choices)))
+        for way, deviations in ((direction, ()), (other, (self._why_other(other),))):
+            pushes = list(_until_one_clears(self._tilted(way, deviations)))
             if pushes and _is_best(pushes[-1]):
                 yield pushes[-1]
             else:
@@ -57,14 +57,14 @@ class SweepGeometry:
             third_best += [push for push in pushes[:1] if not push.clears]
         yield from second_best
         for push in third_best:
-            yield replace(push, choices=(*push.choices, Choice.NOT_CLEARING))
+            yield replace(push, deviations=(*push.deviations, Deviation.NOT_CLEARING))
 
-    def _tilted(self, direction: Direction, choices: Choices) -> Iterator[Push]:
+    def _tilted(self, direction: Direction, deviations: Deviations) -> Iterator[Push]:
         for lean in TILTS if self._has_room(direction) else TILTS[:1]:
             tilt = lean * direction
             if math.cos(self._corridor.angle + tilt) < LEAST_AHEAD:
                 continue
-            settled = (*choices, Choice.TILTED) if tilt else choices
+            settled = (*deviations, Deviation.TILTED) if tilt else deviations
             sweep = TiltedSweep(
                 self._corridor,
                 self._component,
@@ -93,13 +93,13 @@ class SweepGeometry:
             return -1 if rectangle.center[1] <= middle[1] else 1
         return 1 if offset > 0.0 else -1
 
-    def _why_other(self, direction: Direction) -> Choice:
+    def _why_other(self, direction: Direction) -> Deviation:
         """Why to push in this direction, which is not the paper's."""
         corridor, rectangle = self._corridor, self.rectangle
         reach = corridor.half_width - self._radius
         spans = rectangle.lower[1] <= corridor.axis - reach and rectangle.upper[1] >= corridor.axis + reach
         from_nearer = direction == (1 if corridor.to_shelf(rectangle.center)[1] <= self._shelf.width / 2.0 else -1)
-        return Choice.SPANS_CORRIDOR if spans and from_nearer else Choice.OTHER_DIRECTION
+        return Deviation.SPANS_CORRIDOR if spans and from_nearer else Deviation.OTHER_DIRECTION
 
 
 def _until_one_clears(pushes: Iterator[Push]) -> Iterator[Push]:

@@ -8,13 +8,13 @@ from typing import Literal
 
 import numpy as np
 
-from phframe.core import MOUTH_CLEARANCE, Corridor, FloatArray, Rectangle, Sweep, turn
+from phframe.core import MOUTH_CLEARANCE, Corridor, FloatArray, Rectangle, Sweep, rotation_matrix
 from phframe.geometry.arm_view import ArmView
-from phframe.pushing.deviation import Choice
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.reach import distances_on_way_in
 
 Direction = Literal[1, -1]
-Choices = tuple[str, ...]
+Deviations = tuple[str, ...]
 
 LANE_CLEARANCE = 0.005
 """Between the arm going in and the rectangle (m)."""
@@ -34,17 +34,17 @@ EDGE_SURPLUS = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Push:
-    """A sweep that fits, with the settlements it needed.
+    """A sweep that fits, with the deviations it needed.
 
     Attributes:
         sweep: The push.
-        choices: By name.
+        deviations: By name.
         clears: Whether everything pushed ends outside the corridor.
         rams: Whether the arm, on its way in, meets something head-on that it is to push sideways.
     """
 
     sweep: Sweep
-    choices: Choices
+    deviations: Deviations
     clears: bool
     rams: bool = False
 
@@ -94,23 +94,23 @@ class TiltedSweep:
         self._walls = view.walls(corridor.angle + tilt)
         self._boxes = view.boxes
 
-    def push(self, choices: Choices) -> Push | None:
+    def push(self, deviations: Deviations) -> Push | None:
         """The sweep to the rectangle's far edge, or as far as the target allows; None where nothing would be touched.
 
         Where the target does not let it in far enough to touch anything, the lane makes way instead of the depth.
         """
         far = float(self._component.rectangle.upper[0])
-        push = self._at(far, choices)
+        push = self._at(far, deviations)
         allowed = far if push is None else self._depth_allowed(push.sweep)
         if allowed < far:
-            push = self._at(allowed, choices)
+            push = self._at(allowed, deviations)
             if push is None or not self._touches(push.sweep):
-                push = self._at(far, (*choices, Choice.LANE_SHIFTED), past_target=True)
+                push = self._at(far, (*deviations, Deviation.LANE_SHIFTED), past_target=True)
                 if push is not None and self._depth_allowed(push.sweep) < far:
                     return None
         return push if push is not None and self._touches(push.sweep) else None
 
-    def _at(self, depth: float, choices: Choices, *, past_target: bool = False) -> Push | None:
+    def _at(self, depth: float, deviations: Deviations, *, past_target: bool = False) -> Push | None:
         """The sweep at a depth, clamped to the walls; with ``past_target`` in a lane that passes the target by."""
         limits = self._limits(depth)
         if limits is None:
@@ -121,15 +121,15 @@ class TiltedSweep:
         end = self._direction * min(self._direction * end, self._room(sides))
         if (end - lane) * self._direction < SHORTEST_SWEEP:
             return None
-        clamped = [(lane, wanted[0], Choice.LANE_CLAMPED), (end, wanted[1], Choice.SWEEP_CLAMPED)]
-        settled = (*choices, *(choice for value, wish, choice in clamped if value != wish))
+        clamped = [(lane, wanted[0], Deviation.LANE_CLAMPED), (end, wanted[1], Deviation.SWEEP_CLAMPED)]
+        settled = (*deviations, *(deviation for value, wish, deviation in clamped if value != wish))
         sweep = self._with_ways(depth, lane, end)
         return None if sweep is None else Push(sweep, settled, self._clears(sweep, sides), self._rams(sweep))
 
     def _rams(self, sweep: Sweep) -> bool:
         """Whether the straight way in leads through the middle of a member, which then goes deeper, not aside."""
         tip = np.array([sweep.depth, sweep.lane])
-        local = (self._component.centers - tip) @ turn(self._tilt)
+        local = (self._component.centers - tip) @ rotation_matrix(self._tilt)
         lower, upper = self._boxes
         distances = distances_on_way_in(local, lower, upper, sweep.entry)
         return bool((distances < HEAD_ON * self._component.radius).any())

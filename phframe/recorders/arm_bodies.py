@@ -50,15 +50,15 @@ class _Joints:
 
 
 class Links(ArmBodies):
-    """The robot, joint by joint, on its mount."""
+    """The robot, joint by joint, on its base pose."""
 
     def __init__(self, arm: MountedArm) -> None:
         model = arm.model
         left, right = model.fingers.joints
         self._joints = _Joints(tuple(j.name for j in model.joints), (left.name, right.name), (left.lower, right.lower))
         self._robot: Robot = read_robot(model.urdf(), model.meshes(), model.fingers.links)
-        self._mount, self._min_opening = arm.mount.pose, arm.shape.min_opening
-        tip = compose(self._mount, model.forward(model.home))
+        self._base_pose, self._min_opening = arm.base_pose.pose, arm.shape.min_opening
+        tip = compose(self._base_pose, model.forward(model.home))
         self.bodies = self._robot.bodies
         self.parked = ArmState(
             np.array([tip[0], tip[1], yaw_of(tip)]), arm.shape.min_opening, joints=np.array(model.home)
@@ -73,7 +73,7 @@ class Links(ArmBodies):
         values |= {
             name: closed + travel for name, closed in zip(self._joints.fingers, self._joints.closed, strict=True)
         }
-        poses = self._robot.poses(self._mount, values)
+        poses = self._robot.poses(self._base_pose, values)
         return {body.name: poses[body.name] for body in self.bodies}
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import rerun.blueprint as rrb
 
-from phframe.core import Mount, Shelf
+from phframe.core import BasePose, Shelf
 from phframe.recorders import palette
 from phframe.recorders.stream import TIME
 
@@ -13,14 +13,14 @@ IN_FRONT = 0.22
 """How much of the space before the mouth the top view shows (m)."""
 
 
-def blueprint_for(shelf: Shelf, mount: Mount) -> rrb.Blueprint:
+def blueprint_for(shelf: Shelf, base_pose: BasePose) -> rrb.Blueprint:
     """The shelf in 3D and from the top, the decision beside it, the numbers and the story below.
 
     Args:
         shelf: The shelf.
-        mount: Where the arm stands: it is looked at from the other side.
+        base_pose: Where the arm stands: it is looked at from the other side.
     """
-    scene = rrb.Horizontal(_solid(shelf, mount), _plan_view(shelf), _decision(), column_shares=[5, 5, 3.6])
+    scene = rrb.Horizontal(_solid(shelf, base_pose), _plan_view(shelf), _decision(), column_shares=[5, 5, 3.6])
     story = rrb.Horizontal(*_plots(), _story(), column_shares=[2, 2, 2, 4.6])
     return rrb.Blueprint(
         rrb.Vertical(scene, story, row_shares=[5, 2.1]),
@@ -31,8 +31,8 @@ def blueprint_for(shelf: Shelf, mount: Mount) -> rrb.Blueprint:
     )
 
 
-def _solid(shelf: Shelf, mount: Mount) -> rrb.View:
-    aside = 1.55 if mount.y < 0.5 * shelf.width else -0.55
+def _solid(shelf: Shelf, base_pose: BasePose) -> rrb.View:
+    aside = 1.55 if base_pose.y < 0.5 * shelf.width else -0.55
     eye = rrb.EyeControls3D(
         position=[-0.55 * shelf.depth - 0.2, aside * shelf.width, 2.0 * shelf.height],
         look_target=[0.42 * shelf.depth, 0.5 * shelf.width, 0.1 * shelf.height],

@@ -52,7 +52,7 @@ def decision_page(step: Step, scene: Scene, number: int, done: bool) -> str:
         ("persistent radii", _millimetres(decision.persistent_radii)),
         ("chosen radius", _radius(decision)),
         ("chosen component", ", ".join(decision.chosen)),
-        ("settled by phframe", ", ".join(decision.choices)),
+        ("settled by phframe", ", ".join(decision.deviations)),
         ("outcome", ", ".join(_outcome(step, scene)) if done else ""),
     ]
     told = "\n".join(f"- **{name}**: {value}" for name, value in rows if value)

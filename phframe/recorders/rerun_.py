@@ -52,7 +52,7 @@ class RerunRecorder(Observer):
             InputError: If the file cannot be written, or the arm cannot be drawn.
         """
         self._scene, self._arm, self._bodies = scene, arm.shape, bodies_of(arm, scene)
-        stream = Stream(self.path, scene.name, blueprint_for(scene.shelf, arm.mount), _properties(setup))
+        stream = Stream(self.path, scene.name, blueprint_for(scene.shelf, arm.base_pose), _properties(setup))
         self._stream = stream
         self._seconds, self._actions, self._plans = 0.0, 0, 0
         shelf_entities.log_shelf(stream, scene.shelf)

@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from phframe.core import FloatArray, Mount, Scene, Shelf, State
+from phframe.core import BasePose, FloatArray, Scene, Shelf, State
 from phframe.recorders import palette
 from phframe.recorders.arm_bodies import ArmBodies
 from phframe.recorders.bodies import Body, Piece, Primitive
@@ -70,9 +70,9 @@ class Stage:
         self.data.mocap_pos[row], self.data.mocap_quat[row] = pose[:3], pose[3:]
 
 
-def camera(shelf: Shelf, mount: Mount) -> Any:
+def camera(shelf: Shelf, base_pose: BasePose) -> Any:
     """From before the shelf and above into it, a little from the side on which the arm does not stand."""
-    north = mount.y <= 0.5 * shelf.width
+    north = base_pose.y <= 0.5 * shelf.width
     seen = mujoco.MjvCamera()
     seen.lookat = [0.04 * shelf.depth, (0.48 if north else 0.52) * shelf.width, 0.02]
     seen.distance = 0.85 + 0.9 * max(shelf.depth, shelf.width)

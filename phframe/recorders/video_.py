@@ -102,7 +102,7 @@ class _Shooting:
         from phframe.recorders.stage import Stage, camera
 
         width, height = film.kind.width, film.kind.height
-        self._film, self._bodies, self._camera = film, bodies_of(arm, scene), camera(scene.shelf, arm.mount)
+        self._film, self._bodies, self._camera = film, bodies_of(arm, scene), camera(scene.shelf, arm.base_pose)
         self._stage = Stage(scene, self._bodies, width, height)
         self._screen = Offscreen(self._stage.model, width, height)
         self._next = 0.0

@@ -100,11 +100,11 @@ class _Run:
         self._state = self._seen = self._planned_from = self._scene.initial_state()
 
     def episode(self) -> Episode:
-        arm = MountedArm(self._execution.arm, self._execution.mount, self._execution.by_joints)
+        arm = MountedArm(self._execution.arm, self._execution.base_pose, self._execution.by_joints)
         self._tell(lambda observer: observer.begin(self._scene, self._setup, arm))
         self._note(self._execution.start())
         status, reason = self._outcome()
-        spent = self._execution.lifting_time + self._planning.lifting_time
+        spent = self._execution.motion_planning_time + self._planning.motion_planning_time
         plans, steps = tuple(self._plans), tuple(self._steps)
         episode = Episode(self._scene, self._setup, status, reason, plans, steps, spent)
         self._tell(lambda observer: observer.finished(episode))
@@ -193,7 +193,7 @@ class _Run:
             found = self._find_grasp(plan)
             if isinstance(found, Infeasible):
                 return self._as_it_stands(self._half_width(plan)), found.reason
-            action, expected, decision = found.action, None, Decision(choices=found.choices)
+            action, expected, decision = found.action, None, Decision(deviations=found.deviations)
         half_width = self._half_width(plan)
         if rejection := self._step(action, expected, decision):
             return self._as_it_stands(half_width), rejection
@@ -243,7 +243,7 @@ class _Run:
     def _step(self, action: Action, expected: State | None, decision: Decision) -> str:
         """Carry out one action; why not, where the arm cannot."""
         before = self._state
-        trajectory = self._execution.lift(self._seen, action)
+        trajectory = self._execution.plan_trajectory(self._seen, action)
         if isinstance(trajectory, Unreachable):
             self._rejected = (*self._rejected, action)
             return f"the arm cannot do {action.name}: {trajectory.why}"

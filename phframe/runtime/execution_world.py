@@ -19,15 +19,15 @@ class ExecutionWorld(World):
         """Follow a trajectory from where the world is."""
         return self.follow(trajectory, watch)
 
-    def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
+    def plan_trajectory(self, state: State, action: Action) -> Trajectory | Unreachable:
         """As every world; where no motion planner says so, once the arm is known to reach each of the path's poses."""
         if self.plans_motion:
-            return super().lift(state, action)
-        return self._refuse_pose(action) or super().lift(state, action)
+            return super().plan_trajectory(state, action)
+        return self._refuse_pose(action) or super().plan_trajectory(state, action)
 
     def _refuse_pose(self, action: Action) -> Unreachable | None:
         """Where the arm's joints cannot take the fingertip, if anywhere."""
-        base, way = inverse(self.mount.pose), 0.0
+        base, way = inverse(self.base_pose.pose), 0.0
         seed = self.arm.home
         for leg, (x, y, yaw) in enumerate(action.path.poses):
             if leg:

@@ -142,8 +142,8 @@ def _corners(times: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatAr
     kept = [0]
     for row in range(1, len(times) - 1):
         span = times[row + 1] - times[kept[-1]]
-        share = (times[row] - times[kept[-1]]) / span if span > 0.0 else 0.0
-        even = values[kept[-1]] + share * (values[row + 1] - values[kept[-1]])
+        fraction = (times[row] - times[kept[-1]]) / span if span > 0.0 else 0.0
+        even = values[kept[-1]] + fraction * (values[row + 1] - values[kept[-1]])
         if np.abs(even - values[row]).max() > 1e-9:
             kept.append(row)
     kept.append(len(times) - 1)

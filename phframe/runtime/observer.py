@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from phframe.core import ArmModel, ArmShape, Episode, Mount, Plan, Scene, Setup, State, Step
+from phframe.core import ArmModel, ArmShape, BasePose, Episode, Plan, Scene, Setup, State, Step
 
 Frames = Iterable[tuple[float, State]]
 """Seconds since an action began, and the world then: at its beginning, some thirty times a second, and at its end."""
@@ -18,12 +18,12 @@ class MountedArm:
 
     Attributes:
         model: The arm.
-        mount: Where its base stands in the shelf frame.
+        base_pose: Where its base stands in the shelf frame.
         by_joints: Whether its joints are driven, so that the states give them; else its outline moves.
     """
 
     model: ArmModel[Any]
-    mount: Mount
+    base_pose: BasePose
     by_joints: bool
 
     @property

@@ -44,7 +44,7 @@ class PlanningWorld(World):
     def apply(self, state: State, action: Action, watch: Watch | None = None) -> Transition:
         """What an action makes of a state: a function of the two alone. One that the arm cannot do changes nothing."""
         held = self.physics.restore(state)
-        trajectory = self.lift(held, action)
+        trajectory = self.plan_trajectory(held, action)
         if isinstance(trajectory, Unreachable):
             return Transition(state, Motion(0.0, stopped=f"unreachable: {trajectory.why}"))
         motion = self.follow(trajectory, watch)

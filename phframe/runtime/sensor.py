@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from phframe.core import ArmShape, FloatArray, Scene, State, turn
+from phframe.core import ArmShape, FloatArray, Scene, State, rotation_matrix
 from phframe.runtime.noise import POSITIONS, Noise
 
 ATTEMPTS = 50
@@ -60,7 +60,7 @@ class Sensor:
             return []
         opening = float(np.clip(state.arm.opening, self._shape.min_opening, self._shape.max_opening))
         x, y, yaw = state.arm.gripper
-        return [outline.vertices @ turn(float(yaw)).T + (x, y) for outline in self._shape.outlines(opening)]
+        return [outline.vertices @ rotation_matrix(float(yaw)).T + (x, y) for outline in self._shape.outlines(opening)]
 
 
 class _Place:

@@ -47,8 +47,8 @@ LEAST_AHEAD = 0.2
 
 
 LEAST_SERVED = 0.7
-"""Share of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
-LIFT_ATTEMPTS, LIFT_SECONDS = 10, 30.0
+"""Fraction of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
+MOTION_ATTEMPTS, MOTION_SECONDS = 10, 30.0
 """How often a motion planner may try anew, and for how long (s)."""
 
 
@@ -92,35 +92,37 @@ class World:
     def __init__(self, spec: WorldSpec) -> None:
         self.spec, self.scene = spec, spec.scene
         self.arm: ArmModel[Any] = create(Kind.ARM, spec.arm, spec.arm_options)
-        self.mount = spec.scene.mounts.get(spec.arm) or self.arm.default_mount(spec.scene.shelf)
+        self.base_pose = spec.scene.base_poses.get(spec.arm) or self.arm.default_base_pose(spec.scene.shelf)
         backend: type[Physics[Any]] = load(Kind.BACKEND, spec.backend)
         options = backend.options_type.parse(spec.backend_options, f"backend {spec.backend}")
         self._motion_planner = None
         if backend.executes is JointTrajectory:
-            self._motion_planner = self.arm.motion_planner(spec.scene, self.mount)
-        self.lifting_time = 0.0
-        self.physics: Physics[Any] = backend(spec.scene, self.arm, self.mount, options)
-        self._home = _seen_from_above(compose(self.mount.pose, self.arm.forward(self.arm.home)))
+            self._motion_planner = self.arm.motion_planner(spec.scene, self.base_pose)
+        self.motion_planning_time = 0.0
+        self.physics: Physics[Any] = backend(spec.scene, self.arm, self.base_pose, options)
+        self._home = _seen_from_above(compose(self.base_pose.pose, self.arm.forward(self.arm.home)))
         self._refuse_misfit()
 
     def _refuse_misfit(self) -> None:
         """Refuse an arm that stands in the shelf, or does not reach through it."""
         shelf, arm = self.scene.shelf, self.spec.arm
         if self._home[0] + self._front(self._home[2]) >= 0.0:
-            raise IncompatibleError(f"arm {arm!r} at its mount {self.mount} stands in the shelf when it is parked")
+            raise IncompatibleError(
+                f"arm {arm!r} at its base pose {self.base_pose} stands in the shelf when it is parked"
+            )
         length = -min(float(outline.vertices[:, 0].min()) for outline in self.arm.shape.closed)
         if length < shelf.depth:
             raise IncompatibleError(f"arm {arm!r} is {length:g} m long, too short for a shelf {shelf.depth:g} m deep")
         if self._motion_planner is not None:
-            self._refuse_mount()
+            self._refuse_base_pose()
 
-    def _refuse_mount(self) -> None:
-        """Refuse a mount from which the arm's joints reach too little of the shelf."""
-        share = self.arm.share_served(self.scene.shelf, self.mount)
-        if share is not None and share < LEAST_SERVED:
+    def _refuse_base_pose(self) -> None:
+        """Refuse a base pose from which the arm's joints reach too little of the shelf."""
+        fraction = self.arm.fraction_served(self.scene.shelf, self.base_pose)
+        if fraction is not None and fraction < LEAST_SERVED:
             raise IncompatibleError(
-                f"arm {self.spec.arm!r} at its mount {self.mount} reaches {share:.0%} of the shelf, and {LEAST_SERVED:.0%} is "
-                "the least to begin with: give the scene another mount; 'phframe arm reach' draws what one reaches"
+                f"arm {self.spec.arm!r} at its base pose {self.base_pose} reaches {fraction:.0%} of the shelf, and "
+                f"{LEAST_SERVED:.0%} is the least to begin with: give the scene another base pose; 'phframe arm reach' draws what one reaches"
             )
 
     @property
@@ -133,28 +135,28 @@ class World:
         """Whether the engine drives the arm's joints, not its outline."""
         return self._motion_planner is not None
 
-    def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
+    def plan_trajectory(self, state: State, action: Action) -> Trajectory | Unreachable:
         """What to drive to carry out an action from a state: the way to the path's beginning, and the path."""
         if (refusal := self._refuse_opening(action)) is not None:
             return refusal
         if self._motion_planner is not None:
-            return self._lift_to_joints(self._motion_planner, state, action.path)
+            return self._plan_joint_trajectory(self._motion_planner, state, action.path)
         pose = self._home if state.arm is None else state.arm.gripper
         first = action.path.rules[action.path.phases[0]].opening
         path = starting_from(action.path, pose, PhaseRule(APPROACH_SPEED, first, Contacts.NONE))
         opening = self.arm.shape.min_opening if state.arm is None else state.arm.commanded_opening
         return time_path(path, opening, self.arm.force_limit)
 
-    def _lift_to_joints(
+    def _plan_joint_trajectory(
         self, planner: MotionPlanner[Any], state: State, path: GripperPath
     ) -> JointTrajectory | Unreachable:
         """The same joints for the same state and path, every time."""
         began = time.perf_counter()
         try:
             rng = np.random.default_rng(0)
-            return planner.plan(path, state, attempts=LIFT_ATTEMPTS, seconds=LIFT_SECONDS, rng=rng)
+            return planner.plan(path, state, attempts=MOTION_ATTEMPTS, seconds=MOTION_SECONDS, rng=rng)
         finally:
-            self.lifting_time += time.perf_counter() - began
+            self.motion_planning_time += time.perf_counter() - began
 
     def _refuse_opening(self, action: Action) -> Unreachable | None:
         """Why the gripper cannot do an action, if it cannot."""
@@ -193,7 +195,7 @@ class World:
         rule = PhaseRule(RETREAT_SPEED, opening, Contacts.OBJECTS)
         path = GripperPath(np.array([pose, out]), (Phase.RETREAT,), {Phase.RETREAT: rule})
         if self._motion_planner is not None:
-            return self._lift_to_joints(self._motion_planner, state, path)
+            return self._plan_joint_trajectory(self._motion_planner, state, path)
         return time_path(path, opening, self.arm.force_limit)
 
     def _front(self, yaw: float) -> float:

@@ -76,7 +76,7 @@ class ForeignScene:
         blocks: What may be board, walls and ceiling.
         bodies: What may be objects.
         target: Name of the body that the file says is wanted; empty: it does not say.
-        mounts: Position and yaw ``(4,)`` (m, rad) of arms' bases, by the arms' names.
+        base_poses: Position and yaw ``(4,)`` (m, rad) of arms' bases, by the arms' names.
         ignored: What else there was, in words.
     """
 
@@ -84,7 +84,7 @@ class ForeignScene:
     blocks: tuple[Block, ...]
     bodies: tuple[FreeBody, ...]
     target: str
-    mounts: Mapping[str, FloatArray]
+    base_poses: Mapping[str, FloatArray]
     ignored: tuple[str, ...]
 
 

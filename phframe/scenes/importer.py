@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from phframe.core import Cylinder, FloatArray, Mount, Scene, SceneError, SceneObject, UnknownNameError
+from phframe.core import BasePose, Cylinder, FloatArray, Scene, SceneError, SceneObject, UnknownNameError
 from phframe.scenes.foreign import ForeignScene, FreeBody, coefficient, listed
 from phframe.scenes.shelf_finder import DIGITS, Place, find_shelf
 
@@ -52,8 +52,8 @@ def to_scene(foreign: ForeignScene, source: str, target: str | None = None, name
             raise SceneError("no shelf: all that stands on the board stands before its mouth")
         wanted, why = _target(foreign, inside, target)
         objects = tuple(_object(body, place) for body in inside)
-        mounts = {arm: _mount(stand, place) for arm, stand in foreign.mounts.items()}
-        scene = Scene(name or " ".join(foreign.name.split()) or "imported", place.shelf, objects, wanted, mounts)
+        base_poses = {arm: _base_pose(stand, place) for arm, stand in foreign.base_poses.items()}
+        scene = Scene(name or " ".join(foreign.name.split()) or "imported", place.shelf, objects, wanted, base_poses)
     except SceneError as error:
         raise SceneError(error.problems, source) from None
     return Imported(scene, tuple(_notes(foreign, place, inside, f"the target is {wanted!r}, {why}")))
@@ -67,10 +67,10 @@ def _object(body: FreeBody, place: Place) -> SceneObject:
     return SceneObject(body.name, shape, (x, y), yaw, body.mass, None if own == place.board.friction else own)
 
 
-def _mount(stand: FloatArray, place: Place) -> Mount:
+def _base_pose(stand: FloatArray, place: Place) -> BasePose:
     yaw = math.remainder(float(stand[3]) - place.yaw, 2.0 * math.pi)
     x, y, z = (_rounded(value) for value in place.seen(stand[:3]))
-    return Mount(x, y, z, _rounded(yaw))
+    return BasePose(x, y, z, _rounded(yaw))
 
 
 def _target(foreign: ForeignScene, inside: list[FreeBody], asked: str | None) -> tuple[str, str]:

@@ -37,11 +37,15 @@ def scene_to_mjcf(scene: Scene) -> str:
     world = ET.SubElement(root, "worldbody")
     ET.SubElement(world, "light", pos=f"-0.5 {scene.shelf.width / 2!r} 1.5", dir="0.3 0 -1")
     _add_shelf(world, scene.shelf)
-    for name, mount in scene.mounts.items():
-        half = mount.yaw / 2.0
+    for name, base_pose in scene.base_poses.items():
+        half = base_pose.yaw / 2.0
         turned = (math.cos(half), 0.0, 0.0, math.sin(half))
         ET.SubElement(
-            world, "site", name=MOUNT_PREFIX + name, pos=_text((mount.x, mount.y, mount.z)), quat=_text(turned)
+            world,
+            "site",
+            name=MOUNT_PREFIX + name,
+            pos=_text((base_pose.x, base_pose.y, base_pose.z)),
+            quat=_text(turned),
         )
     for name, item in zip(names, scene.objects, strict=True):
         _add_object(world, name, item, coulomb_with_board(scene, item), WANTED if item.id == scene.target else PLAIN)

@@ -162,7 +162,7 @@ class _Reading:
         self._ignore_geoms(free)
         self._ignore_rest(len(free))
         name = bytes(model.names).split(b"\0", 1)[0].decode("utf-8", "replace")
-        return ForeignScene(name, blocks, bodies, self._target(), self._mounts(), tuple(self._ignored))
+        return ForeignScene(name, blocks, bodies, self._target(), self._base_poses(), tuple(self._ignored))
 
     def _may_be_wall(self, row: int) -> bool:
         return self._is_fixed(row) and self._collides(row) and self._shape(row) in ("box", "plane")
@@ -253,7 +253,7 @@ class _Reading:
         start = int(self._model.text_adr[row])
         return bytes(self._model.text_data[start:]).split(b"\0", 1)[0].decode("utf-8", "replace")
 
-    def _mounts(self) -> dict[str, FloatArray]:
+    def _base_poses(self) -> dict[str, FloatArray]:
         """Of arms, as ``phframe export`` writes them."""
         found = {}
         for row in range(self._model.nsite):

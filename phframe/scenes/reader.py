@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from phframe.core import Cylinder, InputError, Mount, Scene, SceneError, SceneObject, Shelf
+from phframe.core import BasePose, Cylinder, InputError, Scene, SceneError, SceneObject, Shelf
 from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, CylinderPart, ObjectPart, ScenePart
 from phframe.scenes.wording import path_shown, shortened, shown
@@ -91,10 +91,10 @@ def _check_format(tree: YamlTree, source: str) -> None:
 
 
 def _scene(part: ScenePart, source: str) -> Scene:
-    mounts = {arm: Mount(*base) for arm, base in part.mount.items()}
+    base_poses = {arm: BasePose(*base) for arm, base in part.mount.items()}
     shelf = Shelf(**part.shelf.model_dump())
     try:
-        return Scene(part.name, shelf, tuple(_object(item) for item in part.objects), part.target, mounts)
+        return Scene(part.name, shelf, tuple(_object(item) for item in part.objects), part.target, base_poses)
     except SceneError as error:
         raise SceneError(shortened(error.problems), source) from None
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from phframe.core import FloatArray, SceneError, Shelf, turn
+from phframe.core import FloatArray, SceneError, Shelf, rotation_matrix
 from phframe.scenes.foreign import Block, FreeBody, coefficient, listed
 
 STANDS_WITHIN = 0.02
@@ -59,7 +59,7 @@ class Place:
     def seen(self, point: FloatArray) -> FloatArray:
         """A point ``(3,)`` of the world in the shelf frame (m)."""
         moved = np.asarray(point) - self.origin
-        return np.array([*(turn(-self.yaw) @ moved[:2]), moved[2]])
+        return np.array([*(rotation_matrix(-self.yaw) @ moved[:2]), moved[2]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ def find_shelf(blocks: Sequence[Block], bodies: Sequence[FreeBody]) -> Place:
     yaw = _yaw(board) if not board.endless else _usual_yaw(blocks)
     extents = [extent for block in blocks if (extent := _extent(block, yaw)) is not None]
     under = next(extent for extent in extents if extent.block is board)
-    centers = np.array([turn(-yaw) @ body.center[:2] for body in standing])
+    centers = np.array([rotation_matrix(-yaw) @ body.center[:2] for body in standing])
     top = max(body.height for body in standing) + float(under.upper[2])
     walls = {side: wall for side in SIDES if (wall := _wall(side, under, extents, centers, top)) is not None}
     mouth = _mouth(walls, under)
@@ -108,7 +108,7 @@ def _stands(body: FreeBody, block: Block) -> bool:
     extent = _extent(block, _yaw(block))
     if extent is None or abs(body.base - extent.upper[2]) > STANDS_WITHIN:
         return False
-    x, y = turn(-_yaw(block)) @ body.center[:2]
+    x, y = rotation_matrix(-_yaw(block)) @ body.center[:2]
     return bool(extent.lower[0] <= x <= extent.upper[0] and extent.lower[1] <= y <= extent.upper[1])
 
 
@@ -128,7 +128,7 @@ def _usual_yaw(blocks: Iterable[Block]) -> float:
 def _extent(block: Block, yaw: float) -> _Extent | None:
     """The box in a frame turned by a yaw, if it lies along its axes."""
     turned = np.eye(3)
-    turned[:2, :2] = turn(-yaw)
+    turned[:2, :2] = rotation_matrix(-yaw)
     axes = np.abs(turned @ block.axes)
     looked_at = axes[:, 2:] if block.endless else axes  # a plane may be turned about its normal
     if (np.minimum(looked_at, 1.0 - looked_at) > SQUARE).any():
@@ -219,7 +219,7 @@ def _placed(
     south, north = (low, high) if mouth in ((0, -1), (1, 1)) else (high, low)
     corner = np.empty(2)
     corner[axis], corner[1 - axis] = near, _face(south, (1 - axis, -1 if south is low else 1))
-    x, y = turn(yaw) @ corner
+    x, y = rotation_matrix(yaw) @ corner
     blocks = (south.block, north.block, walls[back].block)
     ceiling = None if above is None else above.block
     shelf = _shelf(depth, width, height, board.block, blocks, standing, notes)

@@ -75,7 +75,7 @@ def _content(scene: Scene) -> dict[str, Any]:
         "shelf": {name: float(getattr(shelf, name)) for name in names},
         "target": scene.target,
         "objects": [_object(item) for item in scene.objects],
-        "mount": {arm: [float(v) for v in (m.x, m.y, m.z, m.yaw)] for arm, m in scene.mounts.items()},
+        "mount": {arm: [float(v) for v in (m.x, m.y, m.z, m.yaw)] for arm, m in scene.base_poses.items()},
     }
 
 

@@ -10,10 +10,10 @@ import numpy as np
 
 from phframe.core import (
     ArmModel,
+    BasePose,
     FloatArray,
     GripperTrajectory,
     JointTrajectory,
-    Mount,
     Physics,
     Planner,
     Scene,
@@ -27,10 +27,10 @@ from phframe.testing.tolerances import PLANAR, PhysicsTolerances
 DEFAULT_SHELF = Shelf(depth=0.594, width=0.584)
 """The shelf of the published scenes."""
 
-PhysicsFactory = Callable[[Scene, ArmModel[Any], Mount], Physics[Any]]
-"""Makes a new backend; ``lambda scene, arm, mount: MyPhysics(scene, arm, mount, MyOptions())``."""
+PhysicsFactory = Callable[[Scene, ArmModel[Any], BasePose], Physics[Any]]
+"""Makes a new backend; ``lambda scene, arm, base_pose: MyPhysics(scene, arm, base_pose, MyOptions())``."""
 
-Lift = Callable[[GripperTrajectory, State, ArmModel[Any], Mount], JointTrajectory]
+Lift = Callable[[GripperTrajectory, State, ArmModel[Any], BasePose], JointTrajectory]
 """Finds the joints for a gripper trajectory that begins in a state."""
 
 
@@ -90,7 +90,7 @@ class PhysicsUnderTest:
     factory: PhysicsFactory
     arm: ArmModel[Any]
     tolerances: PhysicsTolerances = PLANAR
-    lift: Lift | None = None
+    plan_trajectory: Lift | None = None
     name: str = field(default="the backend")
 
     def __str__(self) -> str:

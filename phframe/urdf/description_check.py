@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from phframe.core import ArmError, Joint
 from phframe.urdf.description import ArmDescription
 from phframe.urdf.reader import Robot
-from phframe.core import ArmError, Joint
 
 
 def check_description(description: ArmDescription, robot: Robot) -> None:

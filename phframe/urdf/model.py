@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from phframe.urdf.solids import ORIGIN, Inertia, Solid, Vector
 from phframe.core import Joint
+from phframe.urdf.solids import ORIGIN, Inertia, Solid, Vector
 
 
 @dataclass(frozen=True, slots=True)

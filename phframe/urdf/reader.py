@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Literal
 
+from phframe.core import ArmError, Joint
 from phframe.urdf.model import Connection
 from phframe.urdf.solids import ORIGIN, Solid, Vector
-from phframe.core import ArmError, Joint
 
 KINDS = ("fixed", "revolute", "continuous", "prismatic")
 TURN = 3.141592653589793

@@ -105,11 +105,11 @@ class Inertia:
 def of_solids(mass: float, solids: Sequence[Solid]) -> Inertia:
     """The inertia of solids of one even density that weigh ``mass`` (kg) together."""
     volume = sum(solid.volume for solid in solids)
-    shares = [mass * solid.volume / volume for solid in solids]
+    fractions = [mass * solid.volume / volume for solid in solids]
     return together(
         [
-            _inertia(share, np.asarray(solid.at), solid.moments(share))
-            for share, solid in zip(shares, solids, strict=True)
+            _inertia(fraction, np.asarray(solid.at), solid.moments(fraction))
+            for fraction, solid in zip(fractions, solids, strict=True)
         ]
     )
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from phframe.arms.baxter import Baxter, BaxterOptions
 from phframe.arms.baxter.model import SIDES, Side
-from phframe.urdf.solids import rotation
 from phframe.core import FloatArray
+from phframe.urdf.solids import rotation
 
 __all__ = ["GOLDEN", "SIDES", "as_matrix", "baxter", "fingertip"]
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pinocchio
 
-from phframe.urdf.solids import Solid, rotation
+from phframe.core import ArmModel, BasePose, FloatArray, compose, inverse
 from phframe.urdf.reader import read_robot
-from phframe.core import ArmModel, FloatArray, Mount, compose, inverse
+from phframe.urdf.solids import Solid, rotation
 
 
 class Covers:
@@ -22,9 +22,9 @@ class Covers:
         links: Begin or end of the names of the links that count.
     """
 
-    def __init__(self, arm: ArmModel[Any], mount: Mount, links: tuple[str, ...]) -> None:
+    def __init__(self, arm: ArmModel[Any], base_pose: BasePose, links: tuple[str, ...]) -> None:
         self._model = pinocchio.buildModelFromXML(arm.urdf())
-        self._data, self._mount = self._model.createData(), mount.pose
+        self._data, self._base_pose = self._model.createData(), base_pose.pose
         rows = [self._model.idx_qs[self._model.getJointId(joint.name)] for joint in arm.joints]
         self._rows = np.array(rows)
         self._points = {
@@ -41,12 +41,12 @@ class Covers:
         pinocchio.framesForwardKinematics(self._model, self._data, values)
         places = [(self._data.oMf[frame], points) for frame, points in self._points.items()]
         points = np.vstack([points @ place.rotation.T + place.translation for place, points in places])
-        return points @ matrix(self._mount[3:]).T + self._mount[:3]
+        return points @ matrix(self._base_pose[3:]).T + self._base_pose[:3]
 
     def behind_tip(self, q: FloatArray) -> FloatArray:
         """Of the points beyond the mouth: x, y, z seen from the fingertip ``(n, 3)``."""
         points = self.in_shelf(q)
-        tip = inverse(compose(self._mount, self._arm.forward(q)))
+        tip = inverse(compose(self._base_pose, self._arm.forward(q)))
         return points[points[:, 0] > 0.0] @ matrix(tip[3:]).T + tip[:3]
 
 
@@ -71,7 +71,7 @@ def surface(solid: Solid, across: int = 17) -> FloatArray:
     elif solid.kind == "cylinder":
         radius, length = solid.size
         angles = np.arange(36) * np.pi / 18.0
-        rings = [(share * radius, height) for share in (0.5, 1.0) for height in (-length / 2.0, length / 2.0)]
+        rings = [(fraction * radius, height) for fraction in (0.5, 1.0) for height in (-length / 2.0, length / 2.0)]
         rings += [(radius, height) for height in steps * length]
         points = np.vstack(
             [np.column_stack([r * np.cos(angles), r * np.sin(angles), np.full(36, height)]) for r, height in rings]

@@ -12,20 +12,20 @@ from ruamel.yaml import YAML
 pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
 
 from phframe.arms.articulated import DescribedArm, DescribedArmOptions
-from phframe.urdf.model import Connection, Link, robot_urdf
-from phframe.urdf.solids import Solid, of_solids
 from phframe.core import (
     ArmError,
+    BasePose,
     Cylinder,
     InputError,
     Joint,
-    Mount,
     Scene,
     SceneObject,
     Shelf,
     compose,
     planar_pose,
 )
+from phframe.urdf.model import Connection, Link, robot_urdf
+from phframe.urdf.solids import Solid, of_solids
 
 pytestmark = pytest.mark.needs_baxter
 
@@ -85,7 +85,7 @@ def test_a_robot_is_two_files(tmp_path: Path) -> None:
     assert [joint.name for joint in robot.joints] == DESCRIPTION["joints"]
     assert robot.joints[0].effort == 300.0
     np.testing.assert_allclose(robot.forward(np.zeros(6)), planar_pose(0.05 + 0.35 + 0.3 + 0.1 + 0.14, 0.0), atol=1e-12)
-    assert robot.default_mount(SHELF) == Mount(-0.5, 0.3, 0.0, 0.0)
+    assert robot.default_base_pose(SHELF) == BasePose(-0.5, 0.3, 0.0, 0.0)
     wanted = planar_pose(0.6, 0.1, 0.08, 0.3)
     found = robot.inverse(wanted, robot.home)
     assert found is not None
@@ -109,7 +109,7 @@ def test_its_outlines_come_from_its_covers_and_the_description(tmp_path: Path) -
 def test_a_shelf_that_stands_askew_is_where_it_is_described(tmp_path: Path) -> None:
     robot = arm(tmp_path, shelf={"at": [0.4, 0.2, -0.1], "yaw": 0.5})
     mouth = planar_pose(0.0, SHELF.width / 2.0, 0.0)
-    base = robot.default_mount(SHELF).pose
+    base = robot.default_base_pose(SHELF).pose
     np.testing.assert_allclose(compose(base, planar_pose(0.4, 0.2, -0.1, 0.5)), mouth, atol=1e-12)
 
 
@@ -175,7 +175,7 @@ def test_covers_that_are_meshes_are_not_moved_by_joints(tmp_path: Path) -> None:
     robot = arm(tmp_path, text)
     scene = Scene("shelf", SHELF, (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
     with pytest.raises(ArmError, match="the collision shape of link 'upper' in the URDF is a mesh"):
-        robot.motion_planner(scene, robot.default_mount(SHELF))
+        robot.motion_planner(scene, robot.default_base_pose(SHELF))
 
 
 def test_files_that_are_not_there_or_not_text_are_told(tmp_path: Path) -> None:
@@ -193,7 +193,7 @@ def test_the_example_is_an_arm_that_solves_a_scene() -> None:
     import phframe
 
     example = DescribedArm(DescribedArmOptions())
-    tip = compose(example.default_mount(SHELF).pose, example.forward(example.home))
+    tip = compose(example.default_base_pose(SHELF).pose, example.forward(example.home))
     np.testing.assert_allclose(tip, planar_pose(-0.1, SHELF.width / 2.0, 0.08), atol=1e-5)
     episode = phframe.solve("vieira/simple-01", arm="articulated")
     assert episode.status == "retrieved"
@@ -219,7 +219,7 @@ def test_closed_fingers_may_touch_one_another() -> None:
     example = DescribedArm(DescribedArmOptions())
     names, fingers = example.description.joints, example.description.fingers
     scene = Scene("shelf", SHELF, (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
-    model = CollisionModel(example.urdf(), names, fingers, (), scene, example.default_mount(SHELF))
+    model = CollisionModel(example.urdf(), names, fingers, (), scene, example.default_base_pose(SHELF))
     model.place(scene.initial_state())
     model.open(np.zeros(2))
     assert model.collisions(example.home) == ()

@@ -26,7 +26,7 @@ JOINTS = st.tuples(*(st.floats(joint.lower, joint.upper) for joint in LEFT.joint
 
 def over_shelf(x: float, y: float, yaw: float) -> FloatArray:
     """A level fingertip in the gripper plane, seen from the base of the left arm; y from the middle of the shelf."""
-    base = inverse(LEFT.default_mount(SHELF).pose)
+    base = inverse(LEFT.default_base_pose(SHELF).pose)
     return compose(base, planar_pose(x, SHELF.width / 2.0 + y, LEFT.shape.height, np.radians(yaw)))
 
 
@@ -129,7 +129,7 @@ def test_inverse_finds_level_poses_all_over_the_shelf_from_scratch() -> None:
 @pytest.mark.parametrize("y", np.linspace(-0.2, 0.2, 5))
 def test_a_straight_insertion_from_home_is_followed_without_a_jump(y: float) -> None:
     q = LEFT.home
-    aside = [over_shelf(-0.03, 0.1 + share * (y - 0.1), 0.0) for share in np.linspace(0.0, 1.0, 61)]
+    aside = [over_shelf(-0.03, 0.1 + fraction * (y - 0.1), 0.0) for fraction in np.linspace(0.0, 1.0, 61)]
     for pose in (*aside, *(over_shelf(x, y, 0.0) for x in np.arange(-0.03, 0.5, 0.005))):
         following = LEFT.kinematics.descend(pose, q)
         assert following is not None, pose
@@ -163,7 +163,7 @@ def test_an_arm_that_baxter_has_not_is_told() -> None:
 @pytest.mark.parametrize("side", SIDES)
 def test_home_is_level_before_the_mouth(side: Side) -> None:
     arm = baxter(side)
-    tip = compose(arm.default_mount(SHELF).pose, arm.forward(arm.home))
+    tip = compose(arm.default_base_pose(SHELF).pose, arm.forward(arm.home))
     sign = 1.0 if side == "left" else -1.0
     wanted = planar_pose(-0.03, SHELF.width / 2.0 + sign * 0.1, 0.10)
     np.testing.assert_allclose(as_matrix(tip), as_matrix(wanted), atol=1e-5)
@@ -174,5 +174,5 @@ def test_home_is_level_before_the_mouth(side: Side) -> None:
 @pytest.mark.parametrize("side", SIDES)
 def test_the_default_mount_is_the_measured_one(side: Side) -> None:
     arm = baxter(side)
-    mouth = compose(inverse(arm.default_mount(SHELF).pose), planar_pose(0.0, SHELF.width / 2.0, 0.0))
+    mouth = compose(inverse(arm.default_base_pose(SHELF).pose), planar_pose(0.0, SHELF.width / 2.0, 0.0))
     np.testing.assert_allclose(mouth[:3], [0.675, 0.35 if side == "left" else -0.35, 0.15], atol=1e-12)

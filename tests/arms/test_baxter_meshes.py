@@ -13,8 +13,8 @@ pytest.importorskip("collada", reason="needs the extra 'meshes'")
 
 from phframe.arms.baxter import meshes
 from phframe.arms.baxter.model import Side
-from phframe.urdf.reader import read_robot
 from phframe.core import ArmError, FloatArray
+from phframe.urdf.reader import read_robot
 from tests.arms.baxter_arm import SIDES, baxter
 
 pytestmark = [pytest.mark.needs_meshes, pytest.mark.needs_baxter]

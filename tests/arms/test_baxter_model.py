@@ -12,9 +12,9 @@ pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
 
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import Side
-from phframe.urdf.solids import Solid
-from phframe.urdf.reader import read_robot
 from phframe.core import FloatArray, Shelf
+from phframe.urdf.reader import read_robot
+from phframe.urdf.solids import Solid
 from tests.arms.baxter_arm import SIDES, baxter
 from tests.arms.covers import Covers
 
@@ -122,7 +122,7 @@ def test_the_idle_arm_does_not_move_and_keeps_out_of_the_way(side: Side) -> None
     other = "right" if side == "left" else "left"
     idle = tuple(link for link in robot.covers if link.startswith(f"{other}_"))
     assert len(idle) == 10
-    points = Covers(arm, arm.default_mount(shelf), idle).in_shelf(arm.home)
+    points = Covers(arm, arm.default_base_pose(shelf), idle).in_shelf(arm.home)
     outside = (points[:, 0] < -0.1) | (points[:, 1] < -0.3) | (points[:, 1] > shelf.width + 0.3)
     assert outside.all()
 
@@ -132,10 +132,10 @@ def test_at_home_the_arm_is_before_the_mouth_and_clear_of_the_body(side: Side) -
     arm, shelf = baxter(side), Shelf(0.594, 0.584)
     distal = ("lower_elbow", "upper_forearm", "lower_forearm", "wrist")
     links = (*(f"{side}_{link}" for link in distal), "fingertip", *arm.fingers.links)
-    mount = arm.default_mount(shelf)
-    points = Covers(arm, mount, links).in_shelf(arm.home)
+    base_pose = arm.default_base_pose(shelf)
+    points = Covers(arm, base_pose, links).in_shelf(arm.home)
     assert float(points[:, 0].max()) < 0.0
-    seen_from_base = points - [mount.x, mount.y, mount.z]
+    seen_from_base = points - [base_pose.x, base_pose.y, base_pose.z]
     for box in figures.TORSO_COVERS:
         inside = (np.abs(seen_from_base - np.array(box.at)) < np.array(box.size) / 2.0).all(axis=1)
         assert not inside.any(), box.part

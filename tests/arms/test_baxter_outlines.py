@@ -16,7 +16,7 @@ from tests.arms.covers import Covers
 
 pytestmark = pytest.mark.needs_baxter
 ARM, SHELF = baxter("left"), Shelf(0.594, 0.584)
-MOUNT = ARM.default_mount(SHELF)
+MOUNT = ARM.default_base_pose(SHELF)
 TOLERANCE = 2e-3
 """Of widths (m): covers are sampled, outlines drawn around round ones."""
 BARREL = 0.03
@@ -81,7 +81,7 @@ def test_wherever_the_arm_can_be_it_can_be_within_its_outlines() -> None:
     least = np.array([min(excess(q) for q in found) for found in reached])
     assert len(reached) > 100
     assert (least <= TOLERANCE).mean() >= 0.7, (
-        "of a few configurations by chance; a motion planner looks for narrow ones"
+        "of a few configurations at random; a motion planner looks for narrow ones"
     )
     assert (least <= BARREL).mean() >= 0.95, "else the wrist's barrel lies across"
 

@@ -1,4 +1,4 @@
-"""The reach of an arm: what a mount is worth, counted over the shelf."""
+"""The reach of an arm: what a base pose is worth, counted over the shelf."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.arms.reach import INSET, YAWS, reachability, share_reachable, share_served
-from phframe.core import Cylinder, Mount, Scene, SceneObject, Shelf
+from phframe.arms.reach import INSET, YAWS, fraction_reachable, fraction_served, reachability
+from phframe.core import BasePose, Cylinder, Scene, SceneObject, Shelf
 
 SHELF = Shelf(0.594, 0.584)
 SCENE = Scene("alone", SHELF, (SceneObject("can", Cylinder(0.03), (0.4, 0.3)),), "can")
@@ -18,7 +18,7 @@ SCENE = Scene("alone", SHELF, (SceneObject("can", Cylinder(0.03), (0.4, 0.3)),),
 
 def test_a_planar_arm_reaches_all_that_its_link_fits_into() -> None:
     arm = PlanarArm(PlanarArmOptions())
-    reach = reachability(SCENE, arm, arm.default_mount(SHELF))
+    reach = reachability(SCENE, arm, arm.default_base_pose(SHELF))
     assert reach.depths[0] >= INSET
     assert reach.widths[-1] <= SHELF.width - INSET
     beside_wall = reach.widths < arm.shape.link_width / 2.0
@@ -31,13 +31,13 @@ def test_a_planar_arm_reaches_all_that_its_link_fits_into() -> None:
 
 def test_of_a_wide_arm_less_is_within_reach() -> None:
     wide = PlanarArm(PlanarArmOptions(link_width=0.5))
-    assert 0.1 < share_reachable(SCENE, wide, wide.default_mount(SHELF)) < 0.6
+    assert 0.1 < fraction_reachable(SCENE, wide, wide.default_base_pose(SHELF)) < 0.6
 
 
 def test_a_mount_out_of_reach_is_worth_nothing() -> None:
     arm = PlanarArm(PlanarArmOptions())
-    assert share_reachable(SCENE, arm, Mount(-3.0, 0.29, arm.shape.height, 0.0)) == 0.0
-    assert share_reachable(SCENE, arm, Mount(-0.1, 0.29, 0.2, 0.0)) == 0.0, "the planar arm stays in its plane"
+    assert fraction_reachable(SCENE, arm, BasePose(-3.0, 0.29, arm.shape.height, 0.0)) == 0.0
+    assert fraction_reachable(SCENE, arm, BasePose(-0.1, 0.29, 0.2, 0.0)) == 0.0, "the planar arm stays in its plane"
 
 
 def test_the_yaws_tried_are_level_ones_within_thirty_degrees() -> None:
@@ -52,10 +52,10 @@ def test_baxter_reaches_its_shelf_and_less_from_farther_away() -> None:
     from tests.arms.baxter_arm import baxter
 
     arm = baxter("left")
-    mount = arm.default_mount(SHELF)
-    assert share_reachable(SCENE, arm, mount) > 0.95
-    assert share_reachable(SCENE, arm, Mount(mount.x - 0.2, mount.y, mount.z, 0.0)) < 0.8
-    assert share_reachable(SCENE, arm, Mount(mount.x - 1.0, mount.y, mount.z, 0.0)) == 0.0
+    base_pose = arm.default_base_pose(SHELF)
+    assert fraction_reachable(SCENE, arm, base_pose) > 0.95
+    assert fraction_reachable(SCENE, arm, BasePose(base_pose.x - 0.2, base_pose.y, base_pose.z, 0.0)) < 0.8
+    assert fraction_reachable(SCENE, arm, BasePose(base_pose.x - 1.0, base_pose.y, base_pose.z, 0.0)) == 0.0
 
 
 @pytest.mark.needs_baxter
@@ -66,20 +66,20 @@ def test_baxters_own_mount_serves_its_shelf_and_a_far_one_does_not() -> None:
 
     arm = baxter("left")
     for shelf in (SHELF, Shelf(0.55, 0.61)):
-        own = arm.default_mount(shelf)
+        own = arm.default_base_pose(shelf)
         found = {}
         for away in (0.0, 0.3, 1.0):
-            mount = Mount(own.x - away, own.y, own.z, own.yaw)
-            found[away] = arm.share_served(shelf, mount)
+            base_pose = BasePose(own.x - away, own.y, own.z, own.yaw)
+            found[away] = arm.fraction_served(shelf, base_pose)
             scene = Scene("alone", shelf, SCENE.objects, "can")
-            assert found[away] == pytest.approx(share_reachable(scene, arm, mount), abs=0.12)
+            assert found[away] == pytest.approx(fraction_reachable(scene, arm, base_pose), abs=0.12)
         assert found[0.0] > 0.9 > LEAST_SERVED > 0.55 > found[0.3] > found[1.0] == 0.0
 
 
 def test_an_arm_that_does_not_know_leaves_it_to_be_found_out() -> None:
     arm = PlanarArm(PlanarArmOptions())
-    assert arm.share_served(SHELF, arm.default_mount(SHELF)) is None
-    assert share_served(SHELF, arm, arm.default_mount(SHELF), arm.inverse) == 1.0
+    assert arm.fraction_served(SHELF, arm.default_base_pose(SHELF)) is None
+    assert fraction_served(SHELF, arm, arm.default_base_pose(SHELF), arm.inverse) == 1.0
 
 
 def test_the_map_is_a_picture(tmp_path: Path) -> None:
@@ -89,7 +89,7 @@ def test_the_map_is_a_picture(tmp_path: Path) -> None:
     from phframe.arms.reach_map import draw_reach
 
     arm = PlanarArm(PlanarArmOptions(link_width=0.5))
-    draw_reach(reachability(SCENE, arm, arm.default_mount(SHELF)), SCENE, "planar", tmp_path / "reach.png")
+    draw_reach(reachability(SCENE, arm, arm.default_base_pose(SHELF)), SCENE, "planar", tmp_path / "reach.png")
     picture = imread(tmp_path / "reach.png")
     assert picture.shape[0] > 400
     assert float(picture[..., :3].std()) > 0.05

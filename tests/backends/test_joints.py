@@ -92,11 +92,11 @@ def test_what_sticks_to_the_board_topples(engine: str, friction: float, conditio
 
 @each_engine
 def test_what_rolls_comes_to_rest(engine: str) -> None:
-    lying = np.array([0.3, MIDDLE, 0.03, math.sqrt(0.5), 0.0, math.sqrt(0.5), 0.0])
+    object_poses = np.array([0.3, MIDDLE, 0.03, math.sqrt(0.5), 0.0, math.sqrt(0.5), 0.0])
     ways = []
     for rolling in (0.0005, 0.0):
         backend = physics(engine, scene_of(cylinder("o", 0.3, MIDDLE), TARGET), rolling_friction=rolling)
-        poses = np.array([lying, backend.scene.initial_state().poses[1]])
+        poses = np.array([object_poses, backend.scene.initial_state().poses[1]])
         backend.restore(State(poses, (Condition.TOPPLED, Condition.UPRIGHT)))
         set_moving(backend, 0, (0.0, 0.1, 0.0))
         ways.append(abs(let_be(backend, 2.0).poses[0, 1] - MIDDLE))
@@ -252,5 +252,5 @@ def test_what_the_arm_reaches_with_its_joints_is_where_forward_says(engine: str)
         arm = ArmState(np.zeros(3), 0.0, joints=q)
         state = backend.restore(replace(backend.scene.initial_state(), arm=arm))
         assert state.arm is not None
-        mount = backend.mount
-        assert np.allclose(state.arm.gripper, np.array([mount.x, mount.y, mount.yaw]) + q, atol=1e-6)
+        base_pose = backend.base_pose
+        assert np.allclose(state.arm.gripper, np.array([base_pose.x, base_pose.y, base_pose.yaw]) + q, atol=1e-6)

@@ -262,7 +262,7 @@ def test_baxter_stands_still_and_has_its_fingertip_where_forward_says(baxter: An
     for _ in range(500):
         world.advance()
     assert np.abs(world.joints - baxter.home).max() < 1e-6
-    tip = compose(world.mount.pose, baxter.forward(world.joints))
+    tip = compose(world.base_pose.pose, baxter.forward(world.joints))
     assert np.allclose(world.gripper, [tip[0], tip[1], yaw_of(tip)], atol=1e-5)
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
 from phframe.backends.pymunk_.braking import Pace, pace
+from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
 from phframe.core import Action, Contacts, Cylinder, GripperPath, Phase, PhaseRule, Scene, SceneObject, Shelf, Watch
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.world import WorldSpec
@@ -57,7 +57,7 @@ def alone(standing: float | None) -> PymunkPhysics:
     """One object of 0.4 kg with a friction of 0.5 on the board, at rest."""
     item = SceneObject("o", Cylinder(0.03), (0.3, 0.3), mass=0.4, friction=0.5)
     scene, arm = Scene("one", SHELF, (item,), "o"), PlanarArm(PlanarArmOptions())
-    physics = PymunkPhysics(scene, arm, arm.default_mount(SHELF), PymunkOptions(standing_radius=standing))
+    physics = PymunkPhysics(scene, arm, arm.default_base_pose(SHELF), PymunkOptions(standing_radius=standing))
     physics.restore(scene.initial_state())
     return physics
 

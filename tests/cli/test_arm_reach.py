@@ -15,11 +15,11 @@ def test_the_shares_are_those_of_the_map(invoke: Invoke, workplace: Path) -> Non
     scene, arm = find_scene("papallas/s02"), PlanarArm(PlanarArmOptions(link_width=0.5))
     result = invoke("arm", "reach", "--scene", "papallas/s02", "--option", "arm.link_width=0.5", "--json")
     assert result.exit_code == 0
-    shares, reach = json.loads(result.stdout), reachability(scene, arm, arm.default_mount(scene.shelf))
-    assert shares["share"] == reach.share < 0.7
-    assert shares["straight"] < shares["share"]
-    assert len(shares["depths"]) == len(shares["share_at_depth"]) == len(reach.depths)
-    assert sum(shares["share_at_depth"]) / len(reach.depths) == pytest.approx(reach.share)
+    fractions, reach = json.loads(result.stdout), reachability(scene, arm, arm.default_base_pose(scene.shelf))
+    assert fractions["fraction"] == reach.fraction < 0.7
+    assert fractions["straight"] < fractions["fraction"]
+    assert len(fractions["depths"]) == len(fractions["fraction_at_depth"]) == len(reach.depths)
+    assert sum(fractions["fraction_at_depth"]) / len(reach.depths) == pytest.approx(reach.fraction)
     assert list(workplace.iterdir()) == []
 
 

@@ -8,7 +8,7 @@ from contextlib import closing
 import pytest
 
 from phframe.cli.progress import Progress
-from phframe.core import Mount, Plan, Scene, Setup, Status
+from phframe.core import BasePose, Plan, Scene, Setup, Status
 from phframe.registry import Kind, create
 from phframe.runtime.observer import MountedArm
 
@@ -28,7 +28,7 @@ def scene() -> Scene:
 
 @pytest.fixture
 def arm() -> MountedArm:
-    return MountedArm(create(Kind.ARM, "planar"), Mount(-0.1, 0.3, 0.06, 0.0), by_joints=False)
+    return MountedArm(create(Kind.ARM, "planar"), BasePose(-0.1, 0.3, 0.06, 0.0), by_joints=False)
 
 
 def _watch(progress: Progress, scene: Scene, arm: MountedArm, seconds: float) -> None:

@@ -11,10 +11,10 @@ import numpy as np
 from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
 from phframe.core import (
     ArmModel,
+    BasePose,
     Condition,
     GripperTrajectory,
     Motion,
-    Mount,
     Scene,
     SceneObject,
     Settle,
@@ -227,9 +227,9 @@ class Drifts(Altered):
 class OtherScene(PymunkPhysics):
     """Models another scene than it is given."""
 
-    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, options: PymunkOptions) -> None:
+    def __init__(self, scene: Scene, arm: ArmModel[Any], base_pose: BasePose, options: PymunkOptions) -> None:
         objects = tuple(self.altered(item) for item in scene.objects)
-        super().__init__(replace(scene, objects=objects, shelf=self.room(scene)), arm, mount, options)
+        super().__init__(replace(scene, objects=objects, shelf=self.room(scene)), arm, base_pose, options)
 
     def altered(self, item: SceneObject) -> SceneObject:
         return item

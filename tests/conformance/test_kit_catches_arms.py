@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import ArrayLike
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.core import ArmShape, Fingers, FloatArray, Joint, Mount, Outline, Shelf
+from phframe.core import ArmShape, BasePose, Fingers, FloatArray, Joint, Outline, Shelf
 from phframe.testing import ARM_CHECKS, ArmUnderTest, Check, ConformanceError, check_arm
 
 
@@ -79,13 +79,13 @@ class TakesAnything(PlanarArm):
 
 
 class StandsFarAway(PlanarArm):
-    def default_mount(self, shelf: Shelf) -> Mount:
-        return Mount(-30.0, 0.0, 0.0, 0.0)
+    def default_base_pose(self, shelf: Shelf) -> BasePose:
+        return BasePose(-30.0, 0.0, 0.0, 0.0)
 
 
 class StandsInside(PlanarArm):
-    def default_mount(self, shelf: Shelf) -> Mount:
-        return Mount(0.2, shelf.width / 2.0, 0.06, 0.0)
+    def default_base_pose(self, shelf: Shelf) -> BasePose:
+        return BasePose(0.2, shelf.width / 2.0, 0.06, 0.0)
 
 
 class Reshaped(PlanarArm):

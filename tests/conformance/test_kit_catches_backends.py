@@ -9,7 +9,7 @@ import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
-from phframe.core import ArmModel, Condition, InputError, Mount, Scene, State
+from phframe.core import ArmModel, BasePose, Condition, InputError, Scene, State
 from phframe.testing import PHYSICS_CHECKS, Check, ConformanceError, PhysicsUnderTest, check_physics
 from phframe.testing.physics.paths import crowd
 from phframe.testing.physics.propagation import PROPAGATION_CHECKS
@@ -144,6 +144,6 @@ def test_bad_input_is_not_hidden_by_the_altered_backend() -> None:
         stand.restore(State(np.full((1, 7), np.nan), (Condition.UPRIGHT,)))
 
 
-def _parts() -> tuple[Scene, ArmModel[Any], Mount]:
+def _parts() -> tuple[Scene, ArmModel[Any], BasePose]:
     scene = crowd()
-    return scene, ARM, ARM.default_mount(scene.shelf)
+    return scene, ARM, ARM.default_base_pose(scene.shelf)

@@ -13,9 +13,9 @@ from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
 from phframe.backends.pymunk_.snapshot import Snapshot
 from phframe.core import (
     ArmModel,
+    BasePose,
     FloatArray,
     Motion,
-    Mount,
     Options,
     Physics,
     Scene,
@@ -118,9 +118,9 @@ class NeedsNoArm(PymunkPhysics):
 class OffersNone(Physics[Options]):
     """A backend with the bare interface."""
 
-    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount) -> None:
-        super().__init__(scene, arm, mount, Options())
-        self._inside = PymunkPhysics(scene, arm, mount, PymunkOptions())
+    def __init__(self, scene: Scene, arm: ArmModel[Any], base_pose: BasePose) -> None:
+        super().__init__(scene, arm, base_pose, Options())
+        self._inside = PymunkPhysics(scene, arm, base_pose, PymunkOptions())
 
     def restore(self, state: State) -> State:
         return self._inside.restore(state)

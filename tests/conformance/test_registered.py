@@ -99,9 +99,9 @@ def physics(backend: str, arm: str) -> PhysicsUnderTest:
     tolerances = PLANAR if loaded.executes is GripperTrajectory else in_space
     options, model = loaded.options_type(), create(Kind.ARM, arm)
     if loaded.executes is JointTrajectory:  # says in one line which arms can, where this one cannot
-        model.motion_planner(SHELF_SCENE, model.default_mount(SHELF_SCENE.shelf))
+        model.motion_planner(SHELF_SCENE, model.default_base_pose(SHELF_SCENE.shelf))
     return PhysicsUnderTest(
-        lambda scene, carrier, mount: loaded(scene, carrier, mount, options),
+        lambda scene, carrier, base_pose: loaded(scene, carrier, base_pose, options),
         model,
         tolerances,
         name=backend,

@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from phframe.core import FloatArray, compose, inverse, planar_pose, rotate, tilt_of, turn, yaw_of
+from phframe.core import FloatArray, compose, inverse, planar_pose, rotate, rotation_matrix, tilt_of, yaw_of
 
 lengths = st.floats(-2.0, 2.0)
 angles = st.floats(-math.pi, math.pi)
@@ -61,7 +61,7 @@ def test_a_planar_pose_has_its_yaw_and_stands_upright(x: float, y: float, z: flo
         [math.cos(yaw_of(pose)), math.sin(yaw_of(pose))], [math.cos(yaw), math.sin(yaw)], atol=1e-9
     )
     assert tilt_of(pose) == 0.0
-    np.testing.assert_allclose(matrix(pose)[:2, :2], turn(yaw), atol=1e-12)
+    np.testing.assert_allclose(matrix(pose)[:2, :2], rotation_matrix(yaw), atol=1e-12)
 
 
 @given(poses())
@@ -74,5 +74,5 @@ def test_tilt_is_the_angle_to_the_vertical(pose: FloatArray) -> None:
 def test_a_quarter_turn_to_the_left() -> None:
     there = compose(planar_pose(1.0, 0.0, 0.0, math.pi / 2.0), planar_pose(0.5, 0.0))
     np.testing.assert_allclose(there[:3], [1.0, 0.5, 0.0], atol=1e-12)
-    lying = np.array([0.0, 0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0])
-    assert math.isclose(tilt_of(lying), math.pi / 2.0)
+    object_poses = np.array([0.0, 0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0])
+    assert math.isclose(tilt_of(object_poses), math.pi / 2.0)

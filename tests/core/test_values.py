@@ -13,6 +13,7 @@ from pydantic import TypeAdapter
 from phframe.core import (
     Action,
     ArmState,
+    BasePose,
     Condition,
     Contact,
     Contacts,
@@ -26,7 +27,6 @@ from phframe.core import (
     InputError,
     JointTrajectory,
     Motion,
-    Mount,
     PersistenceDiagram,
     Phase,
     PhaseRule,
@@ -47,7 +47,7 @@ from phframe.core import (
 
 def scene() -> Scene:
     objects = (SceneObject("a", Cylinder(0.03), (0.2, 0.3), yaw=0.4), SceneObject("t", Cylinder(0.03, 0.1), (0.4, 0.3)))
-    return Scene("two", Shelf(0.6, 0.6), objects, "t", {"planar": Mount(-0.1, 0.3, 0.06, 0.0)})
+    return Scene("two", Shelf(0.6, 0.6), objects, "t", {"planar": BasePose(-0.1, 0.3, 0.06, 0.0)})
 
 
 def state(arm: ArmState | None = None, held: str | None = None) -> State:
@@ -75,7 +75,7 @@ def decision() -> Decision:
         chosen=("a",),
         rectangle=Rectangle(np.array([0.1, 0.1]), np.array([0.2, 0.3])),
         sweep=Sweep(-1, depth=0.2, lane=0.1, end=0.3, entry=0.25, exit=0.3, tilt=0.1),
-        choices=("fallback radius",),
+        deviations=("fallback radius",),
         parent=None,
     )
 
@@ -232,7 +232,7 @@ def test_an_episode_sums_up_its_plans_and_steps() -> None:
     assert found.spilled == ()
     assert found.wall_contact
     assert not found.clean
-    assert found.choices == {"fallback radius": 2}
+    assert found.deviations == {"fallback radius": 2}
     assert found.final_state == state(ARM, "t")
     assert replace(found, steps=()).final_state == scene().initial_state()
 

@@ -37,8 +37,8 @@ def keeps_its_promise(
     ahead = np.array([math.cos(heading), math.sin(heading)])
     travel = WallClearance(SHELF, outlines, yaw, margin).travel(tip, ahead, distance)
     assert 0.0 <= travel <= distance
-    for share in np.linspace(0.0, 1.0, 12):
-        assert gap(outlines, tip + share * travel * ahead, yaw) >= margin - 1e-6
+    for fraction in np.linspace(0.0, 1.0, 12):
+        assert gap(outlines, tip + fraction * travel * ahead, yaw) >= margin - 1e-6
     if travel < distance and margin < 1e-6:
         assert gap(outlines, tip + travel * ahead, yaw) < 1e-6, "it stops although nothing is near"
 

@@ -14,7 +14,7 @@ import mujoco
 import numpy as np
 
 from phframe.arms.articulated import ArticulatedArm
-from phframe.core import FloatArray, Mount, Scene, State, compose, inverse
+from phframe.core import BasePose, FloatArray, Scene, State, compose, inverse
 
 THICKNESS = 0.1
 """Of board, walls and ceiling (m)."""
@@ -31,8 +31,8 @@ class Judge:
         mount: Of the arm.
     """
 
-    def __init__(self, arm: ArticulatedArm[Any], scene: Scene, mount: Mount) -> None:
-        self._arm, self._scene, self._base = arm, scene, inverse(mount.pose)
+    def __init__(self, arm: ArticulatedArm[Any], scene: Scene, base_pose: BasePose) -> None:
+        self._arm, self._scene, self._base = arm, scene, inverse(base_pose.pose)
         self._surroundings = {*scene.ids, *(name for name, *_ in _walls(scene))}
         spec = _robot(arm)
         for name, center, half in _walls(scene):

@@ -11,13 +11,13 @@ import numpy as np
 
 from phframe.core import (
     ArmModel,
+    BasePose,
     Contacts,
     Cylinder,
     FloatArray,
     GripperPath,
     JointTrajectory,
     MotionPlanner,
-    Mount,
     Phase,
     PhaseRule,
     Scene,
@@ -68,8 +68,8 @@ def _made(name: str, side: str) -> Any:
     return create(Kind.ARM, name, {"side": side} if side else {})
 
 
-def planner(arm: ArmModel[Any], scene: Scene = EMPTY, mount: Mount | None = None) -> MotionPlanner[Any]:
-    return arm.motion_planner(scene, arm.default_mount(scene.shelf) if mount is None else mount)
+def planner(arm: ArmModel[Any], scene: Scene = EMPTY, base_pose: BasePose | None = None) -> MotionPlanner[Any]:
+    return arm.motion_planner(scene, arm.default_base_pose(scene.shelf) if base_pose is None else base_pose)
 
 
 def lifted(
@@ -80,11 +80,11 @@ def lifted(
 
 
 def path_of(arm: ArmModel[Any], legs: Sequence[tuple[Phase, Contacts, float, FloatArray]], begin: Any) -> GripperPath:
-    """From a pose along legs of phase, contacts, share of the opening and end."""
+    """From a pose along legs of phase, contacts, fraction of the opening and end."""
     shape = arm.shape
     rules = {
-        phase: PhaseRule(0.2, shape.min_opening + share * (shape.max_opening - shape.min_opening), contacts)
-        for phase, contacts, share, _ in legs
+        phase: PhaseRule(0.2, shape.min_opening + fraction * (shape.max_opening - shape.min_opening), contacts)
+        for phase, contacts, fraction, _ in legs
     }
     poses = np.vstack([begin, *(end for *_, end in legs)])
     return GripperPath(poses, tuple(phase for phase, *_ in legs), rules)
@@ -122,7 +122,7 @@ def seen(motion: JointTrajectory, planner: MotionPlanner[Any], times: FloatArray
     """At times ``(k,)``: fingertip x, y, z and yaw ``(k, 4)``, and the tilt of its axes ``(k, 2)`` (rad)."""
     found, level = [], []
     for q in motion.sample(times)[0]:
-        pose = compose(planner.mount.pose, planner.arm.forward(q))
+        pose = compose(planner.base_pose.pose, planner.arm.forward(q))
         found.append([*pose[:3], yaw_of(pose)])
         w, x, y, z = pose[3:]
         level.append([tilt_of(pose), 2.0 * (x * z - w * y)])
@@ -135,9 +135,9 @@ def off_the_path(points: FloatArray, path: GripperPath) -> tuple[FloatArray, Flo
     for a, b in zip(path.poses[:-1], path.poses[1:], strict=True):
         step = b[:2] - a[:2]
         square = float(step @ step)
-        share = np.clip((points[:, :2] - a[:2]) @ step / square, 0.0, 1.0) if square else np.zeros(len(points))
-        distances.append(np.hypot(*(points[:, :2] - a[:2] - share[:, None] * step).T))
-        turns.append(np.abs(points[:, 3] - a[2] - share * (b[2] - a[2])))
+        fraction = np.clip((points[:, :2] - a[:2]) @ step / square, 0.0, 1.0) if square else np.zeros(len(points))
+        distances.append(np.hypot(*(points[:, :2] - a[:2] - fraction[:, None] * step).T))
+        turns.append(np.abs(points[:, 3] - a[2] - fraction * (b[2] - a[2])))
     nearest = np.argmin(distances, axis=0)
     rows = np.arange(len(points))
     return np.array(distances)[nearest, rows], np.array(turns)[nearest, rows]

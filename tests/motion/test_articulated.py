@@ -19,13 +19,13 @@ pytest.importorskip("toppra")
 from phframe.arms.articulated import ArticulatedArm
 from phframe.arms.baxter import Baxter, BaxterOptions
 from phframe.core import (
+    BasePose,
     Condition,
     Contacts,
     FloatArray,
     GripperPath,
     JointTrajectory,
     MotionPlanner,
-    Mount,
     NotInstalledError,
     Phase,
     Scene,
@@ -177,7 +177,7 @@ def judge_of(planner: MotionPlanner[Any], state: State) -> Any:
     pytest.importorskip("mujoco")
     from tests.motion.judge import Judge
 
-    judge = Judge(cast(ArticulatedArm[Any], planner.arm), planner.scene, planner.mount)
+    judge = Judge(cast(ArticulatedArm[Any], planner.arm), planner.scene, planner.base_pose)
     judge.place(state)
     return judge
 
@@ -271,9 +271,9 @@ def test_where_the_wrist_would_meet_a_wall_the_gripper_is_turned() -> None:
 @pytest.mark.parametrize("away", [(-0.4, 0.0, 0.0), (0.0, 0.0, 0.6)], ids=["back", "up"])
 def test_from_a_mount_too_far_away_nothing_is_in_reach(away: tuple[float, float, float]) -> None:
     arm = baxter()
-    usual = arm.default_mount(SHELF)
-    mount = Mount(usual.x + away[0], usual.y + away[1], usual.z + away[2], usual.yaw)
-    found = lifted(planner(arm, EMPTY, mount), insertion(arm, 0.4, MIDDLE))
+    usual = arm.default_base_pose(SHELF)
+    base_pose = BasePose(usual.x + away[0], usual.y + away[1], usual.z + away[2], usual.yaw)
+    found = lifted(planner(arm, EMPTY, base_pose), insertion(arm, 0.4, MIDDLE))
     assert isinstance(found, Unreachable)
     assert "reach" in found.why or "no posture" in found.why or "meets" in found.why
     assert "\n" not in found.why

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import chisquare
 
-from phframe.motion.expansive_tree import ROOT, ExpansiveTree
 from phframe.core import FloatArray
+from phframe.motion.expansive_tree import ROOT, ExpansiveTree
 from tests.motion.mazes import limits, walls
 
 GAPS = ((0.6, 1.4), (-1.4, -0.6))
@@ -180,8 +180,8 @@ def grown_from(tree: ExpansiveTree, draws: int) -> FloatArray:
         drawn = rng.uniform(np.maximum(lower, vertex - REACH), np.minimum(upper, vertex + REACH), (draws, 3))
         crowd = (np.linalg.norm(drawn[:, None] - tree.vertices, axis=2) <= tree.radius).sum(axis=1)
         kept.append(float((1.0 / np.maximum(1, crowd)).mean()))
-    shares = weights / weights.sum() * kept
-    return np.append(shares, 1.0 - shares.sum())
+    fractions = weights / weights.sum() * kept
+    return np.append(fractions, 1.0 - fractions.sum())
 
 
 @pytest.mark.needs_ompl

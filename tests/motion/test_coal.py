@@ -9,9 +9,9 @@ import pytest
 
 pytest.importorskip("pinocchio")
 
+from phframe.core import Condition, FloatArray, Scene, State, compose, inverse, planar_pose
 from phframe.motion import coal_
 from phframe.motion.coal_ import CollisionModel
-from phframe.core import Condition, FloatArray, Scene, State, compose, inverse, planar_pose
 from tests.motion.motions import MIDDLE, SHELF, baxter, cylinder, example
 
 pytestmark = pytest.mark.needs_baxter
@@ -22,8 +22,8 @@ SCENE = Scene("s", SHELF, (cylinder("near", 0.15, MIDDLE), cylinder("target", 0.
 
 def model_of(arm: Any, scene: Scene = SCENE) -> CollisionModel:
     said = arm.description
-    mount = arm.default_mount(scene.shelf)
-    model = CollisionModel(arm.urdf(), said.joints, said.fingers, said.overlapping, scene, mount)
+    base_pose = arm.default_base_pose(scene.shelf)
+    model = CollisionModel(arm.urdf(), said.joints, said.fingers, said.overlapping, scene, base_pose)
     model.place(scene.initial_state())
     model.allow([])
     model.open(np.array([joint.lower for joint in arm.fingers.joints]))
@@ -41,7 +41,7 @@ def configurations(arm: Any, count: int) -> FloatArray:
 
 def reaching(arm: Any, x: float, y: float) -> FloatArray:
     """Joint values with the fingertip level at a place in the shelf."""
-    base = inverse(arm.default_mount(SHELF).pose)
+    base = inverse(arm.default_base_pose(SHELF).pose)
     q = arm.inverse(compose(base, planar_pose(x, y, arm.shape.height, 0.0)), arm.home)
     assert q is not None
     return np.asarray(q)
@@ -61,7 +61,7 @@ def test_it_agrees_with_mujoco(name: str, monkeypatch: pytest.MonkeyPatch) -> No
     kept = model_of(arm)
     monkeypatch.setattr(coal_, "WALL_MARGIN", 0.0)
     monkeypatch.setattr(coal_, "OBJECT_MARGIN", 0.0)
-    model, judge = model_of(arm), Judge(arm, SCENE, arm.default_mount(SHELF))
+    model, judge = model_of(arm), Judge(arm, SCENE, arm.default_base_pose(SHELF))
     differing, verdicts = [], []
     for q in configurations(arm, 300):
         ours = {(min(pair), max(pair)) for pair in model.collisions(q)}

@@ -129,7 +129,7 @@ def test_what_touches_a_wall_where_it_stands_may_draw_back() -> None:
 def close_to_the_wall(planner: MotionPlanner[Any], q: FloatArray) -> FloatArray:
     """Joint values with the gripper moved to 1 mm from where it would touch the south wall."""
     pose = seen_at(planner, q)
-    base = inverse(planner.mount.pose)
+    base = inverse(planner.base_pose.pose)
     half = planner.arm.shape.insertion_width / 2.0
     target = compose(base, planar_pose(pose[0], half + 1e-3, planner.arm.shape.height, 0.0))
     found = planner.arm.inverse(target, q)

@@ -20,10 +20,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import phframe
+from phframe.core import ArmError, FloatArray, NotInstalledError, UnknownNameError
 from phframe.motion.edges import Edges, bisection
 from phframe.motion.joint_path import DEFAULT, PLANNERS, joint_path
 from phframe.motion.path_shortcutting import shortened
-from phframe.core import ArmError, FloatArray, NotInstalledError, UnknownNameError
 from tests.motion.mazes import Valid, length, limits, looked_at, walls
 
 needs_ompl = pytest.mark.needs_ompl
@@ -263,12 +263,12 @@ def ask(**changes: Any) -> None:
 
 @given(steps=st.integers(1, 700))
 def test_an_edge_is_looked_at_in_all_places_once_the_middle_early(steps: int) -> None:
-    shares = bisection(steps)[:, 0] * steps
-    np.testing.assert_allclose(np.sort(shares), np.arange(1, steps + 1), atol=1e-9)
-    assert shares[0] == pytest.approx(steps)
+    fractions = bisection(steps)[:, 0] * steps
+    np.testing.assert_allclose(np.sort(fractions), np.arange(1, steps + 1), atol=1e-9)
+    assert fractions[0] == pytest.approx(steps)
     for seen in (4, 16, 64):  # no place is ever much farther from those looked at than it would be were they even
         if seen < steps:
-            widest = np.diff(np.sort(np.concatenate([[0.0], shares[:seen]]))).max()
+            widest = np.diff(np.sort(np.concatenate([[0.0], fractions[:seen]]))).max()
             assert widest <= 4.0 * steps / seen + 1.0
 
 

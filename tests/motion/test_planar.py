@@ -10,16 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.motion.planar import PlanarMotionOptions, PlanarMotionPlanner
-from phframe.motion.trapezoidal_velocity import ramp
 from phframe.core import (
     ArmState,
+    BasePose,
     Contacts,
     Cylinder,
     FloatArray,
     GripperPath,
     JointTrajectory,
-    Mount,
     Phase,
     PhaseRule,
     Scene,
@@ -30,6 +28,8 @@ from phframe.core import (
     compose,
     yaw_of,
 )
+from phframe.motion.planar import PlanarMotionOptions, PlanarMotionPlanner
+from phframe.motion.trapezoidal_velocity import ramp
 
 ARM = PlanarArm(PlanarArmOptions())
 SCENE = Scene("s", Shelf(0.6, 0.6), (SceneObject("target", Cylinder(0.03), (0.5, 0.3)),), "target")
@@ -42,38 +42,38 @@ POSES = np.array([[-0.05, 0.2, 0.1], [0.3, 0.25, 0.1], [0.3, 0.4, -0.2], [0.3, 0
 PATH = GripperPath(POSES, (Phase.INSERT, Phase.SWEEP, Phase.GRASP), RULES)
 
 
-def lifted(path: GripperPath, state: State, mount: Mount) -> JointTrajectory | Unreachable:
-    planner = PlanarMotionPlanner(SCENE, ARM, mount, PlanarMotionOptions())
+def lifted(path: GripperPath, state: State, base_pose: BasePose) -> JointTrajectory | Unreachable:
+    planner = PlanarMotionPlanner(SCENE, ARM, base_pose, PlanarMotionOptions())
     return planner.plan(path, state, attempts=1, seconds=1.0, rng=np.random.default_rng(0))
 
 
-def seen(q: FloatArray, mount: Mount) -> list[float]:
-    pose = compose(mount.pose, ARM.forward(q))
+def seen(q: FloatArray, base_pose: BasePose) -> list[float]:
+    pose = compose(base_pose.pose, ARM.forward(q))
     return [pose[0], pose[1], yaw_of(pose)]
 
 
 @pytest.mark.parametrize(
-    "mount", [Mount(-0.1, 0.3, 0.06, 0.0), Mount(-0.4, 0.1, 0.06, 0.7)], ids=["straight", "turned"]
+    "mount", [BasePose(-0.1, 0.3, 0.06, 0.0), BasePose(-0.4, 0.1, 0.06, 0.7)], ids=["straight", "turned"]
 )
-def test_the_fingertip_follows_the_path(mount: Mount) -> None:
-    trajectory = lifted(PATH, SCENE.initial_state(), mount)
+def test_the_fingertip_follows_the_path(base_pose: BasePose) -> None:
+    trajectory = lifted(PATH, SCENE.initial_state(), base_pose)
     assert isinstance(trajectory, JointTrajectory)
     assert trajectory.positions[0].tolist() == ARM.home.tolist()
     for q, pose in zip(trajectory.positions, trajectory.gripper.poses, strict=True):
-        assert np.allclose(seen(q, mount), pose, atol=1e-9)
+        assert np.allclose(seen(q, base_pose), pose, atol=1e-9)
     corners = [leg for leg, phase in enumerate(trajectory.gripper.phases) if phase is not Phase.APPROACH]
     ends = trajectory.gripper.poses[[corners[0], -1]]
     assert np.allclose(ends, POSES[[0, -1]], atol=1e-9)
     assert trajectory.gripper.openings[-1] == pytest.approx(0.08)
     sweep = trajectory.gripper.poses[[phase is Phase.SWEEP for phase in trajectory.gripper.phases] + [False]]
     way = POSES[2] - POSES[1]
-    share = (sweep - POSES[1]) @ way / (way @ way)
-    assert np.allclose(sweep, POSES[1] + share[:, None] * way, atol=1e-9)
+    fraction = (sweep - POSES[1]) @ way / (way @ way)
+    assert np.allclose(sweep, POSES[1] + fraction[:, None] * way, atol=1e-9)
 
 
 def test_it_rests_at_corners_and_keeps_to_speeds_and_accelerations() -> None:
-    mount, options = Mount(-0.4, 0.1, 0.06, 0.7), PlanarMotionOptions()
-    trajectory = lifted(PATH, SCENE.initial_state(), mount)
+    base_pose, options = BasePose(-0.4, 0.1, 0.06, 0.7), PlanarMotionOptions()
+    trajectory = lifted(PATH, SCENE.initial_state(), base_pose)
     assert isinstance(trajectory, JointTrajectory)
     phases = trajectory.gripper.phases
     changes = [0, *(leg for leg in range(1, len(phases)) if phases[leg] is not phases[leg - 1]), len(phases)]
@@ -92,11 +92,11 @@ def test_it_rests_at_corners_and_keeps_to_speeds_and_accelerations() -> None:
 
 
 def test_it_goes_on_from_where_the_joints_are() -> None:
-    mount = Mount(-0.1, 0.3, 0.06, 0.0)
+    base_pose = BasePose(-0.1, 0.3, 0.06, 0.0)
     joints = np.array([0.2, -0.05, 0.02])
     arm = ArmState(np.zeros(3), 0.01, 0.005, joints)
     start = State(SCENE.initial_state().poses, SCENE.initial_state().conditions, arm=arm)
-    trajectory = lifted(PATH, start, mount)
+    trajectory = lifted(PATH, start, base_pose)
     assert isinstance(trajectory, JointTrajectory)
     assert np.allclose(trajectory.positions[0], joints)
     assert trajectory.gripper.openings[0] == 0.005
@@ -106,7 +106,7 @@ def test_it_goes_on_from_where_the_joints_are() -> None:
 def test_beyond_the_joints_it_says_where_and_why() -> None:
     poses = np.array([[-0.05, 0.2, 0.0], [0.3, 0.2, 0.0], [0.3, 2.9, 0.0]])
     path = GripperPath(poses, (Phase.INSERT, Phase.SWEEP), RULES)
-    found = lifted(path, SCENE.initial_state(), Mount(-0.1, 0.3, 0.06, 0.0))
+    found = lifted(path, SCENE.initial_state(), BasePose(-0.1, 0.3, 0.06, 0.0))
     assert isinstance(found, Unreachable)
     approach = math.hypot(0.05, 0.1)
     assert found.where == pytest.approx(approach + 0.35)
@@ -118,7 +118,7 @@ def test_a_path_that_goes_nowhere_is_a_short_rest() -> None:
     arm = ArmState(np.array([-0.05, 0.2, 0.0]), 0.0)
     start = State(SCENE.initial_state().poses, SCENE.initial_state().conditions, arm=arm)
     path = GripperPath(np.array([arm.gripper, arm.gripper]), (Phase.INSERT,), RULES)
-    trajectory = lifted(path, start, Mount(-0.1, 0.3, 0.06, 0.0))
+    trajectory = lifted(path, start, BasePose(-0.1, 0.3, 0.06, 0.0))
     assert isinstance(trajectory, JointTrajectory)
     assert 0.0 < trajectory.duration < 0.1
     assert np.ptp(trajectory.positions, axis=0).max() == 0.0
@@ -128,12 +128,12 @@ def test_a_path_that_goes_nowhere_is_a_short_rest() -> None:
 def test_ramps_are_quickest_within_speed_and_acceleration(at_full_speed: float, to_full_speed: float) -> None:
     found = ramp(at_full_speed, to_full_speed)
     times = found.times(0.02)
-    share, rate = found.share(times), found.rate(times)
-    assert (share[0], rate[0]) == (0.0, 0.0)
-    assert share[-1] == pytest.approx(1.0)
+    fraction, rate = found.fraction(times), found.rate(times)
+    assert (fraction[0], rate[0]) == (0.0, 0.0)
+    assert fraction[-1] == pytest.approx(1.0)
     assert rate[-1] == pytest.approx(0.0, abs=1e-9)
     assert rate.max() <= 1.0 / at_full_speed * (1.0 + 1e-9)
     assert np.diff(times).max() <= 0.02 + 1e-9
     assert found.peak / found.rising == pytest.approx(1.0 / (at_full_speed * to_full_speed))
     covered = np.concatenate([[0.0], np.cumsum(np.diff(times) * (rate[1:] + rate[:-1]) / 2.0)])  # exact: it is linear
-    assert np.allclose(share, covered, atol=1e-9)
+    assert np.allclose(fraction, covered, atol=1e-9)

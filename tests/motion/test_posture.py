@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 pytest.importorskip("pinocchio")
 
+from phframe.core import FloatArray, compose, rotate, yaw_of
 from phframe.motion.posture import Posture
 from phframe.motion.surface_points import Skin
-from phframe.core import FloatArray, compose, rotate, yaw_of
 from tests.motion.motions import MIDDLE, SHELF, baxter, example
 
 pytestmark = pytest.mark.needs_baxter
@@ -26,8 +26,8 @@ STEP = 1e-6
 @cache
 def skin(name: str) -> Skin:
     arm = ARMS[name]()
-    mount = arm.default_mount(SHELF)
-    return Skin(arm.kinematics, arm.robot, arm.description.joints, arm.tip_link, mount, SHELF.depth)
+    base_pose = arm.default_base_pose(SHELF)
+    return Skin(arm.kinematics, arm.robot, arm.description.joints, arm.tip_link, base_pose, SHELF.depth)
 
 
 @cache
@@ -42,7 +42,7 @@ def configuration(arm: Any, rng: np.random.Generator) -> FloatArray:
 
 
 def seen(arm: Any, q: FloatArray) -> FloatArray:
-    pose = compose(arm.default_mount(SHELF).pose, arm.forward(q))
+    pose = compose(arm.default_base_pose(SHELF).pose, arm.forward(q))
     return np.array([pose[0], pose[1], yaw_of(pose)])
 
 
@@ -63,7 +63,7 @@ def test_points_are_on_the_covers_of_the_links_behind_the_gripper() -> None:
     """Those of the tube before Baxter's wrist are 0.066 m from its axis, 0.219 m and more behind the fingertip."""
     arm = baxter()
     points, _ = skin("left").seen(arm.home, np.zeros(7))
-    pose = compose(arm.default_mount(SHELF).pose, arm.forward(arm.home))
+    pose = compose(arm.default_base_pose(SHELF).pose, arm.forward(arm.home))
     ahead = rotate(pose[3:], np.array([1.0, 0.0, 0.0]))
     behind = -(points - pose[:3]) @ ahead
     across = np.linalg.norm(points - pose[:3] + behind[:, None] * ahead, axis=1)

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 pytest.importorskip("toppra")
 
-from phframe.motion.toppra_ import Timed, timed
 from phframe.core import FloatArray
+from phframe.motion.toppra_ import Timed, timed
 
 pytestmark = pytest.mark.needs_baxter
 

@@ -8,8 +8,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from phframe.motion.waypoints import SPACING, TURN_SPACING, waypoints
 from phframe.core import Contacts, GripperPath, Phase, PhaseRule
+from phframe.motion.waypoints import SPACING, TURN_SPACING, waypoints
 
 RULES = {Phase.SWEEP: PhaseRule(0.2, 0.0, Contacts.OBJECTS)}
 poses = st.lists(st.tuples(st.floats(-0.2, 0.6), st.floats(0.0, 0.6), st.floats(-1.0, 1.0)), min_size=2, max_size=6)
@@ -31,8 +31,8 @@ def test_they_are_close_to_one_another_on_the_path_and_hold_its_corners(
         rows = np.flatnonzero(found.legs == leg)
         np.testing.assert_allclose(found.poses[rows[-1]], end, atol=1e-12)
         span = end - begin
-        share = np.linspace(0.0, 1.0, len(rows) + (leg > 0))[-len(rows) :]
-        np.testing.assert_allclose(found.poses[rows], begin + share[:, None] * span, atol=1e-9)
+        fraction = np.linspace(0.0, 1.0, len(rows) + (leg > 0))[-len(rows) :]
+        np.testing.assert_allclose(found.poses[rows], begin + fraction[:, None] * span, atol=1e-9)
     ways = np.hypot(*np.diff(path.poses[:, :2], axis=0).T).sum()
     assert math.isclose(found.lengths[-1], ways, abs_tol=1e-9)
     assert found.lengths[0] == 0.0

@@ -7,8 +7,8 @@ import pytest
 
 from phframe.bench.meters.outcomes import tally, was_cleared
 from phframe.core import Condition, Status
-from phframe.pushing.deviation import Choice
 from phframe.pushing.corridor import find_corridor
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.persistence import persistent_radii
 from tests.planners.solved import PLANNERS, PUBLISHED, episodes, outcomes, pushes
 from tests.pushing.parts import in_strip
@@ -69,7 +69,7 @@ def test_the_members_are_those_in_the_corridor_or_in_the_way_of_the_grasp(planne
         inside = in_strip(corridor, before.positions[scene.target_index], before.positions) & before.on_board
         inside[scene.target_index] = False
         names = [scene.ids[row] for row in np.flatnonzero(inside)]
-        if Choice.GRASP_BLOCKED in decision.choices:
+        if Deviation.GRASP_BLOCKED in decision.deviations:
             assert names == []
             assert decision.members
         else:
@@ -96,7 +96,7 @@ def test_phia_takes_the_smallest_usable_radius_or_the_threshold() -> None:
         persistent = persistent_radii(decision.diagram.finite_deaths, 0.015)
         assert decision.persistent_radii == tuple(persistent)
         usable = [radius for radius in persistent if radius > THRESHOLD]
-        fallback = Choice.FALLBACK_RADIUS in decision.choices
+        fallback = Deviation.FALLBACK_RADIUS in decision.deviations
         assert fallback is not bool(usable)
         assert decision.radius == pytest.approx(THRESHOLD if fallback else usable[0])
         fallbacks += fallback
@@ -118,7 +118,7 @@ def test_phia_groups_by_single_linkage_at_its_radius() -> None:
 def test_ooa_pushes_one_object_at_a_time() -> None:
     for _, _, decision, _ in pushes("ooa"):
         assert (decision.radius, len(decision.chosen)) == (0.01, 1)
-        assert Choice.FALLBACK_RADIUS not in decision.choices
+        assert Deviation.FALLBACK_RADIUS not in decision.deviations
 
 
 @both

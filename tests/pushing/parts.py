@@ -94,8 +94,8 @@ def _from_polygon(point: FloatArray, polygon: FloatArray) -> float:
     """Distance of a point from a convex counter-clockwise polygon; negative inside."""
     edges = np.roll(polygon, -1, axis=0) - polygon
     offset = point - polygon
-    share = np.clip((offset * edges).sum(axis=1) / (edges * edges).sum(axis=1), 0.0, 1.0)
-    distance = float(np.linalg.norm(offset - share[:, None] * edges, axis=1).min())
+    fraction = np.clip((offset * edges).sum(axis=1) / (edges * edges).sum(axis=1), 0.0, 1.0)
+    distance = float(np.linalg.norm(offset - fraction[:, None] * edges, axis=1).min())
     inside = (edges[:, 0] * offset[:, 1] - edges[:, 1] * offset[:, 0] > 0.0).all()
     return -distance if inside else distance
 

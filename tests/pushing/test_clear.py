@@ -23,7 +23,7 @@ from phframe.core import (
     Transition,
 )
 from phframe.planners.ooa import OOA
-from phframe.pushing.deviation import Choice
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.options import PushingOptions
 from phframe.topology.single_linkage import SingleLinkage
 from tests.pushing.parts import ARM, scene_of
@@ -122,8 +122,8 @@ def test_the_first_that_does_no_harm_is_taken() -> None:
     found = plan(BLOCKED, answer)
     assert found.actions[0] == tried[1]
     assert found.actions[0] != tried[0]
-    assert Choice.OTHER_DIRECTION in found.decisions[0].choices
-    assert found.decisions[0].choices[-1] == Choice.NEXT_SWEEP
+    assert Deviation.OTHER_DIRECTION in found.decisions[0].deviations
+    assert found.decisions[0].deviations[-1] == Deviation.NEXT_SWEEP
 
 
 @pytest.mark.parametrize(("first", "taken"), [("spills", 0), ("stalls", 1), ("stays", 1)])
@@ -168,9 +168,9 @@ def test_what_blocks_the_grasp_is_pushed_once() -> None:
 
     found = plan(BESIDE, answer)
     first = found.decisions[0]
-    assert first.choices[0] == Choice.GRASP_BLOCKED
+    assert first.deviations[0] == Deviation.GRASP_BLOCKED
     assert set(first.members) <= {"o0", "o1"}
-    assert found.choices[Choice.GRASP_BLOCKED] == 1
+    assert found.deviations[Deviation.GRASP_BLOCKED] == 1
     if found.status is Status.FAILED:
         assert found.reason.startswith("grasp blocked by o")
 

@@ -54,15 +54,15 @@ def test_far_from_both_walls_the_corridor_is_straight(data: st.DataObject, shelf
 @often
 @given(st.data(), shelves(), widths, st.floats(0.0, 0.99))
 def test_near_a_wall_a_line_through_the_far_mouth_corner_passes_the_target_at_distance_w(
-    data: st.DataObject, shelf: Shelf, w: float, share: float
+    data: st.DataObject, shelf: Shelf, w: float, fraction: float
 ) -> None:
     x = data.draw(st.floats(0.01, shelf.depth))
-    north = found((x, shelf.width - share * w), shelf, w)
+    north = found((x, shelf.width - fraction * w), shelf, w)
     assert (north.beside, north.origin.tolist()) == ("north", [0.0, 0.0])
-    assert distance_to_line(np.array([x, shelf.width - share * w]), north) == pytest.approx(w)
-    south = found((x, share * w), shelf, w)
+    assert distance_to_line(np.array([x, shelf.width - fraction * w]), north) == pytest.approx(w)
+    south = found((x, fraction * w), shelf, w)
     assert (south.beside, south.origin.tolist()) == ("south", [0.0, shelf.width])
-    assert distance_to_line(np.array([x, share * w]), south) == pytest.approx(-w)
+    assert distance_to_line(np.array([x, fraction * w]), south) == pytest.approx(-w)
 
 
 def test_the_angle_of_the_specification() -> None:

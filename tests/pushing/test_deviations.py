@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 
 from phframe.core import Shelf
-from phframe.pushing.deviation import Choice
+from phframe.pushing.deviation import Deviation
 from tests.pushing.parts import ARM, RADIUS, gap_to_walls, highest, often
 from tests.pushing.sweep_cases import Case, cases, millimetres
 
@@ -26,7 +26,7 @@ def test_a_lane_too_narrow_for_the_arm_is_as_near_to_the_rectangle_as_fits() -> 
     case = Case(WIDE, (0.45, 0.13), np.array([[0.3, 0.14], [0.2, 0.14]]))
     push = case.fitted(1, 0.0)
     assert push is not None
-    assert push.choices == (Choice.LANE_CLAMPED,)
+    assert push.deviations == (Deviation.LANE_CLAMPED,)
     assert push.sweep.lane == pytest.approx(0.06 + 0.002, abs=1e-5)
 
 
@@ -34,7 +34,7 @@ def test_a_sweep_too_near_to_the_wall_ends_where_the_arm_fits() -> None:
     case = Case(Shelf(0.6, 0.5), (0.45, 0.376), np.array([[0.3, 0.38], [0.05, 0.38]]))
     push = case.fitted(1, 0.0)
     assert push is not None
-    assert Choice.SWEEP_CLAMPED in push.choices
+    assert Deviation.SWEEP_CLAMPED in push.deviations
     assert push.sweep.end <= 0.5 - 0.06 - 0.002 + 1e-9
 
 
@@ -43,10 +43,10 @@ def test_a_sweep_too_near_to_the_wall_ends_where_the_arm_fits() -> None:
 def test_clamped_at_a_wall_the_arm_or_what_it_pushes_is_at_the_wall(case: Case) -> None:
     for push in case.pushes:
         sweep = push.sweep
-        if Choice.LANE_CLAMPED in push.choices and Choice.LANE_SHIFTED not in push.choices:
+        if Deviation.LANE_CLAMPED in push.deviations and Deviation.LANE_SHIFTED not in push.deviations:
             beyond = sweep.lane - sweep.direction * 0.002
             assert at(case, sweep.depth, beyond, sweep.tilt) < 0.002
-        if Choice.SWEEP_CLAMPED in push.choices:
+        if Deviation.SWEEP_CLAMPED in push.deviations:
             beyond = sweep.end + sweep.direction * 0.002
             squeezed = _room(case, sweep.end, sweep.direction, sweep.depth, sweep.tilt) < RADIUS + 1e-6
             assert squeezed or at(case, sweep.depth, beyond, sweep.tilt) < 0.002
@@ -69,7 +69,7 @@ def test_beside_a_target_that_keeps_the_fingertip_out_the_lane_gives_way(x: floa
     assert push is not None
     sweep = push.sweep
     beside = sweep.lane - 0.009 - 0.3
-    if Choice.LANE_SHIFTED in push.choices:
+    if Deviation.LANE_SHIFTED in push.deviations:
         assert beside == pytest.approx(1.2 * RADIUS, abs=1e-5)
         assert sweep.depth == x
     else:
@@ -81,7 +81,7 @@ def test_the_fingertip_goes_less_deep_before_it_gives_way() -> None:
     case = Case(WIDE, (0.4, 0.3), np.array([[0.4 - 0.062, 0.31], [0.38, 0.37]]))
     push = case.fitted(1, 0.0)
     assert push is not None
-    assert Choice.LANE_SHIFTED not in push.choices
+    assert Deviation.LANE_SHIFTED not in push.deviations
     assert push.sweep.depth == pytest.approx(0.4 - 1.2 * RADIUS)
 
 
@@ -90,7 +90,7 @@ def test_beside_the_target_the_fingertip_goes_as_deep_as_1_2_radii_allow() -> No
     case = Case(WIDE, (0.4, 0.3), np.array([[0.4, 0.3 + 0.03 + 0.009 + 0.009 + RADIUS + 0.005]]))
     push = case.fitted(1, 0.0)
     assert push is not None
-    assert push.choices == ()
+    assert push.deviations == ()
     assert push.sweep.depth == pytest.approx(0.4 - math.sqrt(0.036**2 - 0.03**2))
 
 
@@ -101,7 +101,7 @@ def test_beside_a_wall_the_arm_tilts_where_that_clears() -> None:
     assert tilted
     for push in tilted:
         straight = case.fitted(push.sweep.direction, 0.0)
-        assert Choice.TILTED in push.choices
+        assert Deviation.TILTED in push.deviations
         assert straight is None or not straight.clears
         smaller = [t for t in map(math.radians, (10, -10, 20, -20)) if abs(t) < abs(push.sweep.tilt) - 1e-9]
         assert not any((fit := case.fitted(push.sweep.direction, t)) and fit.clears for t in smaller)

@@ -8,7 +8,7 @@ from hypothesis import given
 
 from phframe.core import Corridor, Shelf
 from phframe.geometry.arm_view import ArmView
-from phframe.pushing.deviation import Choice
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.sweep import SweepGeometry
 from phframe.pushing.tilted_sweep import Push
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, often
@@ -16,7 +16,7 @@ from tests.pushing.sweep_cases import Case, cases
 
 TARGET = (0.45, 0.3)
 WIDE = Shelf(0.6, 0.6)
-OTHER = {Choice.OTHER_DIRECTION, Choice.SPANS_CORRIDOR}
+OTHER = {Deviation.OTHER_DIRECTION, Deviation.SPANS_CORRIDOR}
 
 
 def first(case: Case) -> Push:
@@ -32,20 +32,20 @@ def test_towards_the_side_of_the_centre_line_on_which_the_rectangle_lies(case: C
         return
     for push in case.pushes:
         follows = push.sweep.direction == (1 if middle > 0.0 else -1)
-        assert bool(OTHER & {*push.choices}) is not follows
+        assert bool(OTHER & {*push.deviations}) is not follows
 
 
 @pytest.mark.parametrize(("y", "direction"), [(0.31, 1), (0.29, -1), (0.2, -1), (0.4, 1)])
 def test_north_of_the_line_goes_north_and_south_of_it_south(y: float, direction: int) -> None:
     push = first(Case(WIDE, TARGET, np.array([[0.2, y]])))
-    assert (push.sweep.direction, push.choices) == (direction, ())
+    assert (push.sweep.direction, push.deviations) == (direction, ())
 
 
 @pytest.mark.parametrize(("width", "direction"), [(0.6, -1), (0.625, -1), (0.575, 1)])
 def test_on_the_line_the_middle_of_the_shelf_decides(width: float, direction: int) -> None:
     """``c_R <= c_W``: top to bottom, that is south; else north."""
     push = first(Case(Shelf(0.6, width), TARGET, np.array([[0.2, 0.25], [0.2, 0.35]])))
-    assert (push.sweep.direction, push.choices) == (direction, ())
+    assert (push.sweep.direction, push.deviations) == (direction, ())
 
 
 def spanning(y: float, *more: tuple[float, float]) -> Case:
@@ -61,7 +61,7 @@ def spanning(y: float, *more: tuple[float, float]) -> Case:
 def test_what_spans_the_corridor_goes_the_papers_way_where_that_clears() -> None:
     for y, direction in ((0.3, -1), (0.28, -1), (0.32, 1)):
         push = first(spanning(y, (0.25, y + direction * 0.1)))
-        assert (push.sweep.direction, OTHER & {*push.choices}, push.clears) == (direction, set(), True)
+        assert (push.sweep.direction, OTHER & {*push.deviations}, push.clears) == (direction, set(), True)
 
 
 def test_else_what_spans_the_corridor_is_swept_from_the_nearer_wall() -> None:
@@ -69,9 +69,9 @@ def test_else_what_spans_the_corridor_is_swept_from_the_nearer_wall() -> None:
     case = spanning(0.14, (0.25, 0.04))
     push = first(case)
     assert (push.sweep.direction, push.clears) == (1, True)
-    assert Choice.SPANS_CORRIDOR in push.choices
+    assert Deviation.SPANS_CORRIDOR in push.deviations
     narrower = Case(WIDE, (0.45, 0.14), np.array([[0.2, 0.06], [0.2, 0.21]]))
-    assert OTHER & {*first(narrower).choices} == {Choice.OTHER_DIRECTION}
+    assert OTHER & {*first(narrower).deviations} == {Deviation.OTHER_DIRECTION}
 
 
 def test_where_there_is_no_room_at_the_wall_the_other_direction_is_taken() -> None:
@@ -79,10 +79,10 @@ def test_where_there_is_no_room_at_the_wall_the_other_direction_is_taken() -> No
     case = Case(Shelf(0.6, 0.6), (0.45, 0.14), np.array([[0.2, 0.12]]))
     push = first(case)
     assert (push.sweep.direction, push.clears) == (1, True)
-    assert push.choices[0] == Choice.OTHER_DIRECTION
+    assert push.deviations[0] == Deviation.OTHER_DIRECTION
     last = case.pushes[-1]
     assert (last.sweep.direction, last.clears) == (-1, False)
-    assert last.choices[-1] == Choice.NOT_CLEARING
+    assert last.deviations[-1] == Deviation.NOT_CLEARING
 
 
 def test_where_neither_direction_clears_the_papers_comes_first() -> None:

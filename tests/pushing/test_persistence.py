@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from phframe.core import FloatArray, PersistenceDiagram, Scene
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
-from phframe.pushing.push_problem import Pushing, Situation
+from phframe.pushing.push_problem import Pushing, PushProblem
 from phframe.runtime.scenes import find_scene, scene_names
 from phframe.testing import simulated_tasks
 from tests.pushing.parts import often
@@ -22,11 +22,11 @@ deaths = st.lists(st.floats(0.0, 1.0), max_size=12).map(lambda values: np.array(
 PUBLISHED = [name for name in scene_names() if name.startswith(("vieira", "papallas"))]
 
 
-def seen(scene: Scene, **options: float) -> tuple[Pushing, Situation, PersistenceDiagram]:
+def seen(scene: Scene, **options: float) -> tuple[Pushing, PushProblem, PersistenceDiagram]:
     pushing = Pushing(simulated_tasks()(scene), PushingOptions(**options))
-    situation = pushing.situation(scene.initial_state())
-    assert isinstance(situation, Situation)
-    return pushing, situation, pushing.diagram(situation)
+    problem = pushing.problem(scene.initial_state())
+    assert isinstance(problem, PushProblem)
+    return pushing, problem, pushing.diagram(problem)
 
 
 @often
@@ -59,8 +59,8 @@ def test_the_paper_threshold_is_an_insertion_width_of_18_mm() -> None:
 
 
 def test_the_test_vectors_of_basic() -> None:
-    pushing, situation, diagram = seen(find_scene("vieira/basic"))
-    assert (len(situation.members), situation.corridor.half_width) == (7, 0.12)
+    pushing, problem, diagram = seen(find_scene("vieira/basic"))
+    assert (len(problem.members), problem.corridor.half_width) == (7, 0.12)
     np.testing.assert_allclose(
         diagram.finite_deaths, [0.0641, 0.0840, 0.0857, 0.1127, 0.1172, 0.1213], atol=5.1e-5, rtol=0
     )
@@ -68,7 +68,7 @@ def test_the_test_vectors_of_basic() -> None:
     np.testing.assert_allclose(persistent, [0.0641, 0.0857, 0.1213], atol=5.1e-5, rtol=0)
     usable = usable_radii(diagram.finite_deaths, 0.015, pushing.threshold)
     np.testing.assert_allclose(usable, [0.0857, 0.1213], atol=5.1e-5, rtol=0)
-    counts = [len(set(pushing.task.components(situation.local, radius).tolist())) for radius in persistent]
+    counts = [len(set(pushing.task.components(problem.local, radius).tolist())) for radius in persistent]
     assert counts == [6, 4, 1]
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from phframe.core import Condition, Cylinder, Infeasible, Scene
 from phframe.pushing.options import PushingOptions
-from phframe.pushing.push_problem import Pushing, Situation
+from phframe.pushing.push_problem import Pushing, PushProblem
 from phframe.testing import simulated_tasks
 from tests.pushing.parts import in_strip, mirrored, often, scene_of
 
@@ -23,38 +23,38 @@ def pushing(scene: Scene = SCENE, **options: float) -> Pushing:
     return Pushing(tasks(scene), PushingOptions(**options))
 
 
-def names(situation: Situation | Infeasible, scene: Scene = SCENE) -> list[str]:
-    assert isinstance(situation, Situation)
-    return [scene.ids[row] for row in situation.members]
+def names(problem: PushProblem | Infeasible, scene: Scene = SCENE) -> list[str]:
+    assert isinstance(problem, PushProblem)
+    return [scene.ids[row] for row in problem.members]
 
 
 def test_obstacles_in_the_corridor_count_and_the_target_does_not() -> None:
-    assert names(pushing().situation(SCENE.initial_state())) == ["o0", "o1"]
+    assert names(pushing().problem(SCENE.initial_state())) == ["o0", "o1"]
 
 
 def test_what_blocks_the_grasp_counts_too() -> None:
-    assert names(pushing().situation(SCENE.initial_state(), also=("o3", "target"))) == ["o0", "o1", "o3"]
+    assert names(pushing().problem(SCENE.initial_state(), also=("o3", "target"))) == ["o0", "o1", "o3"]
 
 
 def test_what_has_spilled_does_not_count_and_what_has_toppled_does() -> None:
     state = SCENE.initial_state()
     upright, spilled, toppled = Condition.UPRIGHT, Condition.SPILLED, Condition.TOPPLED
     changed = replace(state, conditions=(upright, spilled, toppled, upright, upright))
-    assert names(pushing().situation(changed, also=("o0",))) == ["o1"]
+    assert names(pushing().problem(changed, also=("o0",))) == ["o1"]
 
 
 @pytest.mark.parametrize("condition", [Condition.SPILLED, Condition.TOPPLED])
 def test_a_target_that_does_not_stand_has_no_corridor(condition: Condition) -> None:
     state = SCENE.initial_state()
-    refused = pushing().situation(replace(state, conditions=(condition, *state.conditions[1:])))
+    refused = pushing().problem(replace(state, conditions=(condition, *state.conditions[1:])))
     assert refused == Infeasible(f"the target 'target' is {condition}")
 
 
 def test_the_corridor_follows_the_target() -> None:
     poses = SCENE.initial_state().poses.copy()
     poses[0, 1] += 0.1
-    moved = pushing().situation(replace(SCENE.initial_state(), poses=poses))
-    assert isinstance(moved, Situation)
+    moved = pushing().problem(replace(SCENE.initial_state(), poses=poses))
+    assert isinstance(moved, PushProblem)
     assert moved.corridor.axis == pytest.approx(0.4)
     assert names(moved) == ["o0", "o1", "o2"]
 
@@ -65,11 +65,11 @@ def test_members_are_those_in_the_strip_given_in_its_frame(cells: list[tuple[int
     """The first is the target, anywhere in the shelf: straight corridors and angled ones."""
     target, *others = [(0.061 * x, 0.061 * y) for x, y in cells]
     scene = scene_of(target, *others)
-    situation = pushing(scene).situation(scene.initial_state())
-    assert isinstance(situation, Situation)
-    inside = in_strip(situation.corridor, np.array(target), np.array(others))
-    assert names(situation, scene) == [f"o{number}" for number in np.flatnonzero(inside)]
-    np.testing.assert_array_equal(situation.local, situation.corridor.to_local(np.array(others)[inside]))
+    problem = pushing(scene).problem(scene.initial_state())
+    assert isinstance(problem, PushProblem)
+    inside = in_strip(problem.corridor, np.array(target), np.array(others))
+    assert names(problem, scene) == [f"o{number}" for number in np.flatnonzero(inside)]
+    np.testing.assert_array_equal(problem.local, problem.corridor.to_local(np.array(others)[inside]))
 
 
 def test_the_largest_obstacle_sets_the_threshold_whatever_the_target() -> None:
@@ -82,24 +82,24 @@ def test_the_largest_obstacle_sets_the_threshold_whatever_the_target() -> None:
 
 def test_decisions_say_what_was_seen_and_rejected_actions_are_left_out() -> None:
     every = pushing()
-    situation = every.situation(SCENE.initial_state())
-    assert isinstance(situation, Situation)
-    diagram = every.diagram(situation)
-    proposals = list(every.pushes(situation, diagram, 0.2, ("because",)))
+    problem = every.problem(SCENE.initial_state())
+    assert isinstance(problem, PushProblem)
+    diagram = every.diagram(problem)
+    proposals = list(every.pushes(problem, diagram, 0.2, ("because",)))
     assert len(proposals) >= 2
     for decision, action in proposals:
         assert decision.members == decision.chosen == action.moves == ("o0", "o1")
-        assert (decision.radius, decision.diagram, decision.corridor) == (0.2, diagram, situation.corridor)
+        assert (decision.radius, decision.diagram, decision.corridor) == (0.2, diagram, problem.corridor)
         assert decision.labels is not None
         assert decision.labels.tolist() == [0, 0]
-        assert decision.choices[0] == "because"
-    singles = list(every.pushes(situation, diagram, 0.01))
+        assert decision.deviations[0] == "because"
+    singles = list(every.pushes(problem, diagram, 0.01))
     assert {decision.chosen for decision, _ in singles} == {("o0",)}
     rejected = tasks(SCENE, rejected=(proposals[0][1],))
-    rest = list(Pushing(rejected, PushingOptions()).pushes(situation, diagram, 0.2, ("because",)))
+    rest = list(Pushing(rejected, PushingOptions()).pushes(problem, diagram, 0.2, ("because",)))
     assert rest == proposals[1:]
 
 
 def test_the_mirrored_scene_has_the_same_members() -> None:
     other = mirrored(SCENE)
-    assert names(pushing(other).situation(other.initial_state()), other) == ["o0", "o1"]
+    assert names(pushing(other).problem(other.initial_state()), other) == ["o0", "o1"]

@@ -23,8 +23,8 @@ from phframe.core import (
     Scene,
     State,
 )
-from phframe.pushing.deviation import Choice
 from phframe.pushing.corridor import find_corridor
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.reach import FITS, NEIGHBOUR_CLEARANCE, YAW_STEPS, Grasp, grasp_action
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, gap_to_walls, gaps_to_points, often, scene_of
@@ -133,7 +133,7 @@ def _touched(scene: Scene, deviation: float, past: float, clearance: float) -> s
     ahead, centers = np.array([math.cos(yaw), math.sin(yaw)]), scene.initial_state().positions
     tip = centers[0] + past * ahead
     length = (tip[0] + 0.05) / ahead[0]
-    ways = [np.array([*(tip - share * length * ahead), yaw]) for share in np.linspace(0.0, 1.0, 7)]
+    ways = [np.array([*(tip - fraction * length * ahead), yaw]) for fraction in np.linspace(0.0, 1.0, 7)]
     if min(gap_to_walls(outlines, pose) for pose in ways) < NEIGHBOUR_CLEARANCE - 1e-6:
         return None
     gaps = gaps_to_points([_drawn_back(outline, length) for outline in outlines], ways[0], centers) - scene.radii
@@ -222,7 +222,10 @@ def test_a_grasp_that_is_turned_or_tight_says_so(scene: Scene) -> None:
         path = found.action.path
         turned = abs(path.poses[0, 2] - corridor_of(scene).angle) > 1e-9
         tight = path.rules[Phase.REACH].opening < 2 * (RADIUS + 0.008) - 1e-9
-        assert (Choice.GRASP_TURNED in found.choices, Choice.GRASP_TIGHT in found.choices) == (turned, tight)
+        assert (Deviation.GRASP_TURNED in found.deviations, Deviation.GRASP_TIGHT in found.deviations) == (
+            turned,
+            tight,
+        )
 
 
 def test_rejected_grasps_are_not_proposed_until_none_is_left() -> None:

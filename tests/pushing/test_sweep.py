@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phframe.core import FloatArray, Outline, Shelf
-from phframe.pushing.deviation import Choice
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.push_problem import WALL_CLEARANCE
 from phframe.pushing.sweep import TILTS
 from phframe.pushing.tilted_sweep import Direction, Push
@@ -18,7 +18,7 @@ from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, boundary, gap_to_walls,
 from tests.pushing.sweep_cases import Case, cases
 
 KEEP_OFF = 1.2 * RADIUS
-OTHER = {Choice.OTHER_DIRECTION, Choice.SPANS_CORRIDOR}
+OTHER = {Deviation.OTHER_DIRECTION, Deviation.SPANS_CORRIDOR}
 HAMMER = (
     Outline("head", np.array([[-0.04, -0.08], [0.0, -0.08], [0.0, 0.08], [-0.04, 0.08]])),
     Outline("handle", np.array([[-1.3, -0.015], [-0.04, -0.015], [-0.04, 0.015], [-1.3, 0.015]])),
@@ -86,7 +86,7 @@ def test_the_sweep_goes_in_its_direction_and_reaches_the_nearest_member(case: Ca
         assert (sweep.end - sweep.lane) * sweep.direction > 0.0
         assert case.local[:, 0].min() - 0.9 * RADIUS < sweep.depth <= case.local[:, 0].max() + 1e-12
         assert sweep.tilt in TILTS
-        assert (Choice.TILTED in push.choices) is (sweep.tilt != 0.0)
+        assert (Deviation.TILTED in push.deviations) is (sweep.tilt != 0.0)
 
 
 @often
@@ -107,7 +107,7 @@ def test_a_sweep_that_clears_leaves_every_member_outside_the_corridor_and_off_th
 
 def test_what_is_swept_up_to_the_wall_and_out_of_the_corridor_is_cleared() -> None:
     case = Case(Shelf(0.4, 0.4), (0.2, 0.03), np.array([[0.08489662, 0.11480898]]))
-    pushes = {push.sweep.direction: push for push in case.pushes if Choice.SWEEP_CLAMPED in push.choices}
+    pushes = {push.sweep.direction: push for push in case.pushes if Deviation.SWEEP_CLAMPED in push.deviations}
     ends = pushed(case, pushes[-1])
     assert (case.corridor.axis - ends[:, 1]).min() > HALF_WIDTH
     assert case.corridor.to_shelf(ends)[:, 1].min() == pytest.approx(RADIUS, abs=1e-6)
@@ -119,10 +119,10 @@ def test_what_is_swept_up_to_the_wall_and_out_of_the_corridor_is_cleared() -> No
 def test_what_is_not_clamped_is_the_papers_sweep(case: Case) -> None:
     for push in case.pushes:
         sweep, rectangle = push.sweep, case.geometry.rectangle
-        if Choice.SWEEP_CLAMPED not in push.choices:
+        if Deviation.SWEEP_CLAMPED not in push.deviations:
             leading = (pushed(case, push)[:, 1] - case.corridor.axis) * sweep.direction - RADIUS
             assert leading.min() == pytest.approx(HALF_WIDTH + 1e-3, abs=1e-6)
-        if not {Choice.LANE_CLAMPED, Choice.LANE_SHIFTED} & {*push.choices}:
+        if not {Deviation.LANE_CLAMPED, Deviation.LANE_SHIFTED} & {*push.deviations}:
             inserted = np.array([sweep.depth, sweep.lane, sweep.tilt])
             assert gaps_to_points(ARM.closed, inserted, case.local).min() >= RADIUS - 1e-9
             near = rectangle.lower[1] if sweep.direction == 1 else rectangle.upper[1]
@@ -145,14 +145,14 @@ def test_at_most_two_are_proposed_in_each_direction_and_those_that_clear_come_fi
     for direction in (1, -1):
         same = [push for push in pushes if push.sweep.direction == direction]
         assert [push.clears for push in same] in ([], [True], [False], [True, False])
-        assert len({bool(OTHER & {*push.choices}) for push in same}) <= 1
+        assert len({bool(OTHER & {*push.deviations}) for push in same}) <= 1
     for push in pushes:
-        assert (Choice.NOT_CLEARING in push.choices) is not push.clears
+        assert (Deviation.NOT_CLEARING in push.deviations) is not push.clears
     ranks = [(not push.clears, push.clears and push.rams) for push in pushes]
     assert ranks == sorted(ranks), "what rams on its way in comes after what does not"
     for rank in set(ranks):
         part = [push for push, its in zip(pushes, ranks, strict=True) if its == rank]
-        other = [bool(OTHER & {*push.choices}) for push in part]
+        other = [bool(OTHER & {*push.deviations}) for push in part]
         assert other == sorted(other), "the paper's direction comes first"
 
 
@@ -162,7 +162,7 @@ def test_north_and_south_are_mirror_images(case: Case, direction: Direction, til
     push, other = case.fitted(direction, tilt), case.mirrored.fitted(-direction, -tilt)
     assert (push is None) is (other is None)
     if push is not None and other is not None:
-        assert other.choices == push.choices
+        assert other.deviations == push.deviations
         one, two, axes = push.sweep, other.sweep, (case.corridor.axis, case.mirrored.corridor.axis)
         assert (two.depth, two.entry, two.exit) == pytest.approx((one.depth, one.entry, one.exit), abs=1e-9)
         offsets = (one.lane - axes[0], one.end - axes[0])
@@ -179,7 +179,7 @@ def test_a_sweep_up_to_the_margin_fits_on_both_sides() -> None:
 def test_the_sweep_of_a_lone_object_in_the_middle() -> None:
     case = Case(Shelf(0.6, 0.6), (0.45, 0.3), np.array([[0.25, 0.32]]))
     (push, *_) = case.pushes
-    assert (push.choices, push.clears) == ((), True)
+    assert (push.deviations, push.clears) == ((), True)
     sweep = push.sweep
     assert (sweep.direction, sweep.depth, sweep.tilt) == (1, 0.25, 0.0)
     assert sweep.lane == pytest.approx(0.32 - 0.009 - 0.03 - 0.005)

@@ -98,7 +98,7 @@ def hand_made() -> Recorded:
 def mounted(*, by_joints: bool = False) -> MountedArm:
     """The planar arm: two fingers, a palm and a link."""
     arm = PlanarArm(PlanarArmOptions())
-    return MountedArm(arm, arm.default_mount(SCENE.shelf), by_joints)
+    return MountedArm(arm, arm.default_base_pose(SCENE.shelf), by_joints)
 
 
 def _first_decision() -> Decision:

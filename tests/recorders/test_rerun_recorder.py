@@ -293,7 +293,7 @@ def test_links_move_joint_by_joint_where_the_states_have_joints(made: Recorded, 
     def with_joints(state: State) -> State:
         assert state.arm is not None
         x, y, yaw = state.arm.gripper
-        return replace(state, arm=replace(state.arm, joints=np.array([x - arm.mount.x, y - arm.mount.y, yaw])))
+        return replace(state, arm=replace(state.arm, joints=np.array([x - arm.base_pose.x, y - arm.base_pose.y, yaw])))
 
     recorder, step = RerunRecorder(tmp_path / "joints.rrd"), made.episode.steps[0]
     recorder.begin(SCENE, SETUP, arm)
@@ -304,7 +304,7 @@ def test_links_move_joint_by_joint_where_the_states_have_joints(made: Recorded, 
     assert "/world/arm/palm" not in recording.entities
     rows = recording.rows("/world/arm/fingertip", "translation")
     written = {round(time, 6): place[0] for time, _, place in rows}
-    np.testing.assert_allclose(rows[0][2][0], arm.mount.pose[:3], atol=1e-6, err_msg="parked at home")
+    np.testing.assert_allclose(rows[0][2][0], arm.base_pose.pose[:3], atol=1e-6, err_msg="parked at home")
     compared = [(time, state.arm) for time, state in made.frames[0] if round(time, 6) in written and time > 0.0]
     assert len(compared) > 20
     for time, arm_state in compared:

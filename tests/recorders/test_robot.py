@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from phframe.core import ArmError, ArmModel, ArmState, InputError, LinkMesh, Mount, State, compose
+from phframe.core import ArmError, ArmModel, ArmState, BasePose, InputError, LinkMesh, State, compose
 from phframe.recorders import palette
 from phframe.recorders.arm_bodies import Outlines, bodies_of
 from phframe.recorders.bodies import Primitive, Surface, normals, prism
@@ -17,7 +17,7 @@ from phframe.recorders.robot import read_robot
 from phframe.registry import Kind, create
 from tests.recorders.synthetic_episode import SCENE, mounted
 
-BASE = Mount(-0.7, 0.2, -0.15, 0.3).pose
+BASE = BasePose(-0.7, 0.2, -0.15, 0.3).pose
 FOLLOWER = """<robot name="r">
 <link name="a"/><link name="b"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
 <link name="c"><visual><geometry><mesh filename="c.stl"/></geometry></visual>
@@ -98,8 +98,8 @@ def test_a_broken_urdf_is_one_line(text: str, why: str) -> None:
 def test_links_and_outlines_of_the_planar_arm_are_in_the_same_place() -> None:
     x, y, yaw, opening = 0.2, 0.35, 0.4, 0.05
     links, outlines = (bodies_of(mounted(by_joints=by_joints), SCENE) for by_joints in (True, False))
-    mount = mounted().mount
-    joints = np.array([x - mount.x, y - mount.y, yaw])
+    base_pose = mounted().base_pose
+    joints = np.array([x - base_pose.x, y - base_pose.y, yaw])
     initial = SCENE.initial_state()
     state = State(initial.poses, initial.conditions, None, ArmState(np.array([x, y, yaw]), opening, joints=joints))
     frames = Frames.gather(np.zeros(1), [state], outlines.parked)
@@ -124,8 +124,8 @@ def test_a_parked_robot_is_at_home() -> None:
     arm = mounted(by_joints=True)
     bodies = bodies_of(arm, SCENE)
     frames = Frames.gather(np.zeros(1), [SCENE.initial_state()], bodies.parked)
-    same_pose(bodies.poses(frames)["fingertip"][0], compose(arm.mount.pose, arm.model.forward(arm.model.home)))
-    np.testing.assert_allclose(frames.grippers[0], [arm.mount.x, arm.mount.y, 0.0])
+    same_pose(bodies.poses(frames)["fingertip"][0], compose(arm.base_pose.pose, arm.model.forward(arm.model.home)))
+    np.testing.assert_allclose(frames.grippers[0], [arm.base_pose.x, arm.base_pose.y, 0.0])
 
 
 def test_a_prism_is_closed_and_faces_outwards() -> None:

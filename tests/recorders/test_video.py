@@ -18,7 +18,7 @@ pytest.importorskip("mujoco", reason="needs the extra 'video'")
 import av
 from PIL import Image
 
-from phframe.core import Condition, InputError, LinkMesh, Mount, State, Step
+from phframe.core import BasePose, Condition, InputError, LinkMesh, State, Step
 from phframe.recorders import opengl, palette
 from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.coloring import object_color
@@ -122,13 +122,13 @@ def test_the_robot_moves_by_its_joints_where_the_states_have_them(made: Recorded
     arm = mounted(by_joints=True)
     stage = staged(arm_by_joints=True)
     gripper = np.array([0.3, 0.35, 0.2])
-    joints = gripper - [arm.mount.x, arm.mount.y, 0.0]
+    joints = gripper - [arm.base_pose.x, arm.base_pose.y, 0.0]
     before = made.episode.steps[1].before
     assert before.arm is not None
     show(stage, replace(before, arm=replace(before.arm, gripper=np.zeros(3), joints=joints)), by_joints=True)
     np.testing.assert_allclose(stage.data.body("arm/fingertip").xpos, [0.3, 0.35, 0.06], atol=1e-9)
     show(stage, SCENE.initial_state(), by_joints=True)
-    np.testing.assert_allclose(stage.data.body("arm/fingertip").xpos, arm.mount.pose[:3], atol=1e-9)
+    np.testing.assert_allclose(stage.data.body("arm/fingertip").xpos, arm.base_pose.pose[:3], atol=1e-9)
 
 
 def test_what_lies_is_drawn_lying() -> None:
@@ -145,7 +145,7 @@ def test_all_of_the_shelf_and_of_the_gripper_is_in_the_picture() -> None:
     show(stage, SCENE.initial_state())
     stage.model.geom_rgba[:] = [0.0, 1.0, 0.0, 1.0]
     screen = Offscreen(stage.model, 320, 180)
-    picture = screen.draw(stage.data, camera(SCENE.shelf, mounted().mount))
+    picture = screen.draw(stage.data, camera(SCENE.shelf, mounted().base_pose))
     screen.close()
     green = (picture[..., 1] > 100) & (picture[..., 0] < 60)
     assert 0.1 < green.mean() < 0.7
@@ -155,7 +155,7 @@ def test_all_of_the_shelf_and_of_the_gripper_is_in_the_picture() -> None:
 
 @pytest.mark.parametrize("y", [-0.1, 0.7])
 def test_the_camera_is_on_the_side_on_which_the_arm_does_not_stand(y: float) -> None:
-    view = camera(SCENE.shelf, Mount(-0.7, y, 0.0, 0.0))
+    view = camera(SCENE.shelf, BasePose(-0.7, y, 0.0, 0.0))
     sideways = view.lookat[1] - view.distance * np.cos(np.radians(view.elevation)) * np.sin(np.radians(view.azimuth))
     middle = 0.5 * SCENE.shelf.width
     assert (sideways - middle) * (y - middle) < 0.0

@@ -111,4 +111,4 @@ def test_observers_are_told_of_the_joints_and_frames_end_where_the_action_did() 
     assert looked_at == phframe.solve("vieira/simple-03", backend="mujoco")
     phframe.solve("vieira/simple-03", observers=[Looking()])
     assert [arm.by_joints for arm in Looking.arms] == [True, False]
-    assert Looking.arms[0].mount == Looking.arms[0].model.default_mount(find_scene("vieira/simple-03").shelf)
+    assert Looking.arms[0].base_pose == Looking.arms[0].model.default_base_pose(find_scene("vieira/simple-03").shelf)

@@ -96,7 +96,7 @@ def test_many_at_once_with_two_workers_come_to_the_same_bits_in_the_same_order()
 
 def test_an_action_that_the_arm_cannot_do_changes_nothing() -> None:
     class Short(PlanningWorld):
-        def lift(self, state: State, action: Action) -> Unreachable:
+        def plan_trajectory(self, state: State, action: Action) -> Unreachable:
             return Unreachable(0.2, "out of reach")
 
     with Short(SPEC) as world:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.core import ArmState, Condition, Cylinder, Scene, SceneObject, Shelf, State, turn
+from phframe.core import ArmState, Condition, Cylinder, Scene, SceneObject, Shelf, State, rotation_matrix
 from phframe.core.scene_check import problems_of
 from phframe.runtime.noise import Noise
 from phframe.runtime.scenes import find_scene, scene_names
@@ -81,11 +81,11 @@ def test_what_has_left_the_board_or_is_held_is_seen_as_it_is() -> None:
 @given(st.integers(0, 500), st.floats(-1.5, 1.5))
 def test_nothing_is_seen_inside_the_arm(seed: int, yaw: float) -> None:
     shelf = Shelf(0.6, 0.6)
-    spot = np.array([0.3, 0.3]) + turn(yaw) @ np.array([0.032, 0.0])  # just ahead of the closed fingers
+    spot = np.array([0.3, 0.3]) + rotation_matrix(yaw) @ np.array([0.032, 0.0])  # just ahead of the closed fingers
     near = Scene("near", shelf, (SceneObject("a", Cylinder(0.03), (float(spot[0]), float(spot[1]))),), "a")
     state = replace(near.initial_state(), arm=ArmState(np.array([0.3, 0.3, yaw]), SHAPE.min_opening))
     seen = sensor(near, 0.02, seed).see(state).positions[0]
-    local = (seen - (0.3, 0.3)) @ turn(yaw)
+    local = (seen - (0.3, 0.3)) @ rotation_matrix(yaw)
     for outline in SHAPE.closed:
         low, high = outline.vertices.min(axis=0), outline.vertices.max(axis=0)
         if len(outline.vertices) == 4:  # a rectangle along the axes of the fingertip frame

@@ -10,11 +10,11 @@ import pytest
 
 from phframe.core import (
     Action,
+    BasePose,
     Contacts,
     GripperPath,
     GripperTrajectory,
     IncompatibleError,
-    Mount,
     OptionError,
     Phase,
     PhaseRule,
@@ -72,7 +72,7 @@ def test_the_world_goes_on_after_a_stall() -> None:
     with ExecutionWorld(WorldSpec(WALL)) as world:
         state = world.start()
         for action in (JAM, push((-0.05, 0.1), (0.2, 0.1), (0.2, 0.15), (-0.05, 0.15))):
-            trajectory = world.lift(state, action)
+            trajectory = world.plan_trajectory(state, action)
             assert isinstance(trajectory, GripperTrajectory)
             motion = world.execute(trajectory)
             state = world.observe()
@@ -85,14 +85,14 @@ def test_from_parked_the_arm_comes_from_home_and_then_from_where_it_is() -> None
         parked = world.start()
         assert parked.arm is None
         easy = push((-0.05, 0.1), (0.05, 0.1), (0.05, 0.12), (-0.05, 0.12))
-        trajectory = world.lift(parked, easy)
+        trajectory = world.plan_trajectory(parked, easy)
         assert isinstance(trajectory, GripperTrajectory)
         np.testing.assert_allclose(trajectory.poses[0], [-0.1, BASIC.shelf.width / 2, 0.0])
         np.testing.assert_array_equal(trajectory.poses[1:], easy.path.poses)
         assert trajectory.phases == (Phase.APPROACH, *easy.path.phases)
         assert trajectory.force_limit == world.arm.force_limit
         world.execute(trajectory)
-        later = world.lift(world.observe(), easy)
+        later = world.plan_trajectory(world.observe(), easy)
         assert isinstance(later, GripperTrajectory)
         np.testing.assert_allclose(later.poses[0], trajectory.poses[-1], atol=2e-3)
 
@@ -104,15 +104,15 @@ def test_an_action_that_begins_where_the_arm_is_needs_no_approach() -> None:
         action = push(
             tuple(state.arm.gripper[:2]), (0.0, 0.1), (0.0, 0.12), (-0.05, 0.12), yaw=float(state.arm.gripper[2])
         )
-        trajectory = world.lift(state, action)
+        trajectory = world.plan_trajectory(state, action)
         assert isinstance(trajectory, GripperTrajectory)
         assert trajectory.phases == action.path.phases
 
 
 def test_the_scenes_mount_counts_before_the_arms_own() -> None:
-    mounted = replace(BASIC, mounts={"planar": Mount(-0.3, 0.1, 0.06, 0.0)})
+    mounted = replace(BASIC, base_poses={"planar": BasePose(-0.3, 0.1, 0.06, 0.0)})
     with PlanningWorld(WorldSpec(mounted)) as world:
-        trajectory = world.lift(mounted.initial_state(), JAM)
+        trajectory = world.plan_trajectory(mounted.initial_state(), JAM)
         assert isinstance(trajectory, GripperTrajectory)
         np.testing.assert_allclose(trajectory.poses[0], [-0.3, 0.1, 0.0])
         assert world.apply(mounted.initial_state(), JAM).motion.duration > 0.0
@@ -145,11 +145,11 @@ def test_a_backend_that_drives_joints_needs_a_motion_planner(monkeypatch: pytest
 
 SERVING = """
 from phframe.arms.planar import PlanarArm
-from phframe.arms.reach import share_served
+from phframe.arms.reach import fraction_served
 
 class Serving(PlanarArm):
-    def share_served(self, shelf, mount):
-        return share_served(shelf, self, mount, self.inverse)
+    def fraction_served(self, shelf, base_pose):
+        return fraction_served(shelf, self, base_pose, self.inverse)
 """
 
 
@@ -158,7 +158,7 @@ def test_a_mount_that_cannot_serve_the_shelf_is_refused_where_joints_are_driven(
     pytest.importorskip("mujoco")
     (tmp_path / "serving.py").write_text(SERVING)
     arm = f"{tmp_path / 'serving.py'}:Serving"
-    low = replace(BASIC, mounts={arm: Mount(-0.1, 0.3, 0.02, 0.0)})  # its plane is not the gripper's
+    low = replace(BASIC, base_poses={arm: BasePose(-0.1, 0.3, 0.02, 0.0)})  # its plane is not the gripper's
     with pytest.raises(IncompatibleError, match=r"reaches 0% of the shelf, and 70% is the least.*phframe arm reach"):
         ExecutionWorld(WorldSpec(low, "mujoco", arm))
     ExecutionWorld(WorldSpec(low, "pymunk", arm)).close()

@@ -65,11 +65,11 @@ class Clumsy(ExecutionWorld):
         self._refuses = refuses
         self.refused: list[Action] = []
 
-    def lift(self, state: State, action: Action) -> Trajectory | Unreachable:
+    def plan_trajectory(self, state: State, action: Action) -> Trajectory | Unreachable:
         if self._refuses(action):
             self.refused.append(action)
             return Unreachable(0.1, "joint 4 at its limit")
-        return super().lift(state, action)
+        return super().plan_trajectory(state, action)
 
 
 class Noting(PHIA):

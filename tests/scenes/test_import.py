@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from phframe.core import PhframeError, Scene, SceneError, UnknownNameError, turn
+from phframe.core import PhframeError, Scene, SceneError, UnknownNameError, rotation_matrix
 from phframe.runtime.scenes import find_scene, scene_names
 from phframe.scenes import parse_scene, scene_to_yaml
 from phframe.scenes.importer import Imported, to_scene
@@ -27,7 +27,7 @@ pytest.importorskip("mujoco")
 from phframe.scenes.mujoco_ import read_mjcf  # noqa: E402
 
 FOREIGN = Path(__file__).parent / "foreign.xml"
-CENTER, YAW = np.array([1.0, -2.0]) + turn(math.radians(30)) @ [0.5, 0.25], math.radians(120)
+CENTER, YAW = np.array([1.0, -2.0]) + rotation_matrix(math.radians(30)) @ [0.5, 0.25], math.radians(120)
 """Of the cabinet in the file: that of the room, and then its own."""
 
 Import = Callable[..., Imported]
@@ -63,7 +63,7 @@ def test_an_arm_in_it_is_ignored(imported: Import) -> None:
     from phframe.backends.mujoco_.export import with_arm
 
     scene, arm = find_scene("papallas/s02"), PlanarArm(PlanarArmOptions())
-    back = imported(with_arm(scene_to_mjcf(scene), arm, arm.default_mount(scene.shelf)))
+    back = imported(with_arm(scene_to_mjcf(scene), arm, arm.default_base_pose(scene.shelf)))
     assert back.scene == scene
     assert any("actuators: 5" in note for note in back.notes)
 
@@ -76,10 +76,12 @@ def test_a_cabinet_of_others_is_found_where_it_stands(imported: Import) -> None:
     assert (shelf.board_friction, shelf.wall_friction) == (0.6, 0.9)
     assert (back.scene.name, back.scene.target) == ("lab cabinet", "goal_can")
     cola, goal = back.scene.objects
-    corner = CENTER + turn(YAW) @ [-0.3, -0.25]
-    expected = turn(-YAW) @ (np.array([1.1, -1.6]) - corner)
+    corner = CENTER + rotation_matrix(YAW) @ [-0.3, -0.25]
+    expected = rotation_matrix(-YAW) @ (np.array([1.1, -1.6]) - corner)
     assert goal.position == pytest.approx(tuple(expected), abs=1e-9)
-    expected = turn(-YAW) @ (np.array([1.0, -2.0]) + turn(math.radians(30)) @ [0.45, 0.40] - corner)
+    expected = rotation_matrix(-YAW) @ (
+        np.array([1.0, -2.0]) + rotation_matrix(math.radians(30)) @ [0.45, 0.40] - corner
+    )
     assert cola.position == pytest.approx(tuple(expected), abs=1e-9)
     assert cola.mass == pytest.approx(800 * math.pi * 0.033**2 * 0.12)
     assert goal.mass == pytest.approx(0.3)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from phframe.core import Cylinder, Mount, Scene, SceneObject, Shelf
+from phframe.core import BasePose, Cylinder, Scene, SceneObject, Shelf
 from phframe.runtime.scenes import find_scene, scene_names
 from phframe.scenes.mjcf import body_names, scene_to_mjcf
 
@@ -25,7 +25,7 @@ ODD = Scene(
         SceneObject("arm/<&>", Cylinder(0.02, 0.1), (0.5, 0.1), yaw=1.0),
     ),
     "board",
-    {"planar": Mount(-0.2, 0.25, 0.06, 0.5)},
+    {"planar": BasePose(-0.2, 0.25, 0.06, 0.5)},
 )
 
 
@@ -82,9 +82,9 @@ def test_on_a_slope_less_steep_than_its_friction_an_object_stays() -> None:
     item = SceneObject("can", Cylinder(0.03, 0.04), (0.4, 0.25), friction=0.5)
     scene = Scene("slope", Shelf(2.0, 0.5, board_friction=0.2), (item,), "can")
     moved = []
-    for share in (0.9, 1.1):
+    for fraction in (0.9, 1.1):
         model, data = loaded(scene_to_mjcf(scene))
-        angle = math.atan(share * 0.5)
+        angle = math.atan(fraction * 0.5)
         model.opt.gravity = [9.81 * math.sin(angle), 0.0, -9.81 * math.cos(angle)]
         model.opt.impratio = 100.0
         for _ in range(500):
@@ -116,12 +116,12 @@ def test_an_arm_stands_parked_at_its_mount_and_holds_still(name: str) -> None:
     from phframe.registry import Kind, create
 
     scene, arm = find_scene("vieira/basic"), create(Kind.ARM, name)
-    mount = arm.default_mount(scene.shelf)
-    model, data = loaded(with_arm(scene_to_mjcf(scene), arm, mount))
+    base_pose = arm.default_base_pose(scene.shelf)
+    model, data = loaded(with_arm(scene_to_mjcf(scene), arm, base_pose))
     mujoco.mj_resetDataKeyframe(model, data, model.key(HOME).id)
     mujoco.mj_kinematics(model, data)
     tip = data.body(PREFIX + arm.tip_link)
-    np.testing.assert_allclose(tip.xpos, compose(mount.pose, arm.forward(arm.home))[:3], atol=1e-5)
+    np.testing.assert_allclose(tip.xpos, compose(base_pose.pose, arm.forward(arm.home))[:3], atol=1e-5)
     before = data.qpos.copy()
     for _ in range(500):
         mujoco.mj_step(model, data)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from phframe.core import Cylinder, InputError, Mount, SceneError, SceneObject, Shelf
+from phframe.core import BasePose, Cylinder, InputError, SceneError, SceneObject, Shelf
 from phframe.scenes import parse_scene, read_scene
 from phframe.scenes.reader import MAX_BYTES
 from phframe.scenes.yaml_tree import MAX_DEPTH
@@ -46,7 +46,7 @@ def test_the_published_format_is_read_with_its_defaults() -> None:
     assert scene.shelf == Shelf(0.594, 0.584, 0.4, board_friction=0.25, wall_friction=0.2)
     expected = SceneObject("object_1", Cylinder(0.03, 0.12), (0.37975, 0.31175), yaw=0.0, mass=0.3, friction=None)
     assert scene.objects[0] == expected
-    assert scene.mounts == {}
+    assert scene.base_poses == {}
 
 
 def test_everything_optional_is_read() -> None:
@@ -55,7 +55,7 @@ def test_everything_optional_is_read() -> None:
     assert scene.objects[0] == SceneObject("mug", Cylinder(0.04, 0.1), (0.5, 0.3), -1.5, 2.0, 0.4)
     assert scene.objects[1].id == "7"
     assert scene.objects[1].friction is None
-    assert scene.mounts == {"planar": Mount(-0.5, 0.3, 0.0, 1.5), "my arm": Mount(0.0, 0.0, 0.0, 0.0)}
+    assert scene.base_poses == {"planar": BasePose(-0.5, 0.3, 0.0, 1.5), "my arm": BasePose(0.0, 0.0, 0.0, 0.0)}
     assert type(scene.shelf.depth) is float
 
 
@@ -119,7 +119,10 @@ BAD: dict[str, tuple[str, list[str]]] = {
     ),
     "one coordinate": (changed("[0.37975, 0.31175]", "[0.3]"), ["is a list of 1; expected 2 numbers [x, y]"]),
     "position no list": (changed("[0.37975, 0.31175]", "{x: 1}"), ["is a mapping; expected a list of numbers"]),
-    "mount too short": (GOOD + "mount: {a: [0, 1]}\n", ["line 8: mount.a is a list", "4 numbers [x, y, z, yaw]"]),
+    "mount too short": (
+        GOOD + "mount: {a: [0, 1]}\n",
+        ["line 8: mount.a is a list", "4 numbers [x, y, z, yaw]"],
+    ),
     "mount no mapping": (GOOD + "mount: [0]\n", ["line 8: mount is a list of 1; expected a mapping"]),
     "shelf no mapping": (changed("{depth: 0.594, width: 0.584, height: 0.4}", "3"), ["line 3: shelf is 3"]),
     "objects no list": (GOOD.partition("  -")[0] + "  a: 1\n", ["objects is a mapping; expected a list"]),

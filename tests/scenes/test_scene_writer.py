@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from phframe.core import Cylinder, InputError, Mount, Scene, SceneError, SceneObject, Shelf
+from phframe.core import BasePose, Cylinder, InputError, Scene, SceneError, SceneObject, Shelf
 from phframe.scenes import RandomScenes, parse_scene, read_scene, scene_to_yaml, write_scene
 
 SCENE = RandomScenes().load("3")
@@ -19,7 +19,7 @@ figure = st.floats(-1e6, 1e6)
 size = st.floats(1e-3, 1e3)
 friction = st.floats(0.0, 10.0)
 name = st.text(min_size=1, max_size=100).filter(lambda text: text.isprintable() and text == text.strip())
-mount = st.builds(Mount, figure, figure, figure, figure)
+base_pose = st.builds(BasePose, figure, figure, figure, figure)
 
 
 @st.composite
@@ -40,8 +40,8 @@ def scenes(draw: st.DrawFn) -> Scene:
         for index, each in enumerate(ids)
     )
     shelf = Shelf(draw(st.floats(0.7, 5.0)), 2.0, 1.0, draw(friction), draw(friction))
-    mounts = draw(st.dictionaries(name, mount, max_size=2))
-    return Scene(draw(name), shelf, items, draw(st.sampled_from(ids)), mounts)
+    base_poses = draw(st.dictionaries(name, base_pose, max_size=2))
+    return Scene(draw(name), shelf, items, draw(st.sampled_from(ids)), base_poses)
 
 
 @given(scenes())
@@ -50,14 +50,14 @@ def test_a_scene_written_and_read_is_the_same_scene(scene: Scene) -> None:
     text = scene_to_yaml(scene)
     again = parse_scene(text)
     assert again == scene
-    assert again.mounts == scene.mounts
+    assert again.base_poses == scene.base_poses
     assert scene_to_yaml(again) == text
 
 
 def test_the_text_is_the_published_format() -> None:
     item = SceneObject("object_1", Cylinder(0.03, 0.12), (0.37975, 0.31175))
     other = SceneObject("true", Cylinder(0.03, 0.12), (0.5, 0.1), mass=1.0)
-    scene = Scene("s01", Shelf(0.594, 0.584), (item, other), "true", {"planar": Mount(-0.5, 0.25, 0.0, math.pi)})
+    scene = Scene("s01", Shelf(0.594, 0.584), (item, other), "true", {"planar": BasePose(-0.5, 0.25, 0.0, math.pi)})
     assert scene_to_yaml(scene) == (
         "phframe: 1\n"
         "name: s01\n"

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from phframe.core import FloatArray, Options, PersistenceDiagram, TopologyEngine, turn
+from phframe.core import FloatArray, Options, PersistenceDiagram, TopologyEngine, rotation_matrix
 from phframe.core.topology import FLOAT32_SLACK
 from phframe.topology.ripser_ import Ripser
 from phframe.topology.single_linkage import SingleLinkage
@@ -129,7 +129,7 @@ def test_the_order_of_the_points_does_not_matter(
 def test_turning_shifting_and_mirroring_change_nothing(
     engine: TopologyEngine[Options], points: FloatArray, angle: float, shift: tuple[float, float], mirrored: bool
 ) -> None:
-    moved = points @ turn(angle).T * [-1.0 if mirrored else 1.0, 1.0] + shift
+    moved = points @ rotation_matrix(angle).T * [-1.0 if mirrored else 1.0, 1.0] + shift
     lengths = [np.zeros(len(points)), np.zeros(len(points))]  # points that coincide may come apart by rounding
     for padded, diagram in zip(lengths, (engine.diagram(points), engine.diagram(moved)), strict=True):
         padded[len(points) - len(diagram.finite_deaths) :] = diagram.finite_deaths

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from phframe.arms.articulated import ArticulatedArm
-from phframe.motion.options import ArticulatedOptions
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import SIDES, Side, arm_joints, baxter_urdf, fingers, mirrored
-from phframe.urdf.description import ArmDescription, Section, Stand
 from phframe.core import LinkMesh
+from phframe.motion.options import ArticulatedOptions
+from phframe.urdf.description import ArmDescription, Section, Stand
 
 
 class BaxterOptions(ArticulatedOptions):

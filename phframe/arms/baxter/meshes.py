@@ -13,8 +13,8 @@ import numpy as np
 
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import SIDES, TIP, Side, fingers
-from phframe.urdf.solids import ORIGIN, Vector, rotation
 from phframe.core import ArmError, FloatArray, LinkMesh
+from phframe.urdf.solids import ORIGIN, Vector, rotation
 
 PACKAGE = "example-robot-data"
 FOLDER = Path("cmeel.prefix/share/example-robot-data/robots/baxter_description/meshes")

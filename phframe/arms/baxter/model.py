@@ -10,9 +10,9 @@ from typing import Literal
 import numpy as np
 
 from phframe.arms.baxter import figures
+from phframe.core import Fingers, Joint
 from phframe.urdf.model import Connection, Link, robot_urdf
 from phframe.urdf.solids import ORIGIN, Inertia, Solid, Vector, of_solids, rotation, together
-from phframe.core import Fingers, Joint
 
 Side = Literal["left", "right"]
 SIDES: tuple[Side, Side] = ("left", "right")

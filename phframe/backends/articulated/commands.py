@@ -65,7 +65,7 @@ def accepted(world: JointWorld, trajectory: Trajectory) -> JointTrajectory:
 
 def _refuse_jump(world: JointWorld, trajectory: JointTrajectory) -> None:
     x, y, yaw = world.gripper
-    begin = compose(world.mount.pose, world.arm.forward(trajectory.positions[0]))
+    begin = compose(world.base_pose.pose, world.arm.forward(trajectory.positions[0]))
     distance, turn = math.hypot(begin[0] - x, begin[1] - y), abs(_wrapped(yaw_of(begin) - yaw))
     joints = float(np.abs(trajectory.positions[0] - world.joints).max())
     if distance > START_POSITION or turn > START_ANGLE or joints > START_ANGLE:

@@ -7,8 +7,8 @@ from collections import deque
 from collections.abc import Iterator
 
 from phframe.backends.articulated.commands import accepted, commands
-from phframe.backends.articulated.force_limiter import Limiter
 from phframe.backends.articulated.contacts import Touches
+from phframe.backends.articulated.force_limiter import Limiter
 from phframe.backends.articulated.world import JointWorld
 from phframe.core import FORCE_WINDOW, Contact, JointTrajectory, Motion, Settle, Stop, Trajectory, Watch
 
@@ -17,7 +17,7 @@ SURVEY = 10
 CALM_CHECK = 5
 """Control steps between looks at whether all is at rest."""
 YIELDING = 0.1
-"""For at least this long (s) a stopped arm gives way to what presses on it, so that it stands with no preload."""
+"""For at least this long (s) a stopped arm complies to what presses on it, so that it stands with no preload."""
 LONGEST_YIELDING, YIELDED = 0.5, 3.0
 """A slow, heavy one does so for up to so long (s), until it is pressed by no more than this (N)."""
 
@@ -87,7 +87,7 @@ class Drive:
                 self._touches.forget_phase()
             tell(control)
             if self._pressed and self._limiter.heed(self._forces[-1], touched=any(self._forces)):
-                self._world.give_way()
+                self._world.comply()
             tip_x, tip_y = advance()
             lag = math.hypot(tip_x - x, tip_y - y)
             if lag > self._lag:
@@ -143,7 +143,7 @@ class Drive:
         for tick in range(most):
             if tick >= least and self._forces[-1] <= YIELDED:
                 break
-            self._world.give_way()
+            self._world.comply()
             self._advance()
         self._world.hold_joints(self._world.joints)
 

@@ -12,9 +12,9 @@ LEVER = 1.0
 HASTE = 2.0
 """Acceleration (rad/s^2 or m/s^2) for which a joint keeps effort besides what the limit takes."""
 LEAST = 0.05
-"""Share of its effort that a joint keeps in any case, to hold itself."""
+"""Fraction of its effort that a joint keeps in any case, to hold itself."""
 BRAKE = 1.5
-"""Share of the limit above which the arm brakes."""
+"""Fraction of the limit above which the arm brakes."""
 RECOVERY = 1.3
 """Factor by which joints get back their effort in every control step in which the force is below the limit."""
 

@@ -41,7 +41,7 @@ def held_twist(
 
 
 def _followed(world: JointWorld, poses: FloatArray, start: FloatArray) -> FloatArray:
-    arm, base, found = world.arm, inverse(world.mount.pose), [start]
+    arm, base, found = world.arm, inverse(world.base_pose.pose), [start]
     for x, y, yaw in poses[1:]:
         q = arm.inverse(compose(base, planar_pose(x, y, arm.shape.height, yaw)), found[-1])
         if q is None:

@@ -17,10 +17,10 @@ from numpy.typing import ArrayLike
 from phframe.core import (
     ArmModel,
     ArmState,
+    BasePose,
     Condition,
     FloatArray,
     InputError,
-    Mount,
     Scene,
     SimulationDivergedError,
     State,
@@ -49,7 +49,7 @@ class JointWorld(ABC):
     Args:
         scene: What is in it.
         arm: In it.
-        mount: Of the arm.
+        base_pose: Of the arm.
         step: The engine's time step (s).
 
     Attributes:
@@ -66,10 +66,10 @@ class JointWorld(ABC):
     """The backend's name, for messages."""
     delay: float = 0.0
 
-    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, step: float) -> None:
+    def __init__(self, scene: Scene, arm: ArmModel[Any], base_pose: BasePose, step: float) -> None:
         self.step, self.substeps = step, max(1, round(CONTROL_PERIOD / step))
         self.period = self.substeps * step
-        self.scene, self.arm, self.mount = scene, arm, mount
+        self.scene, self.arm, self.base_pose = scene, arm, base_pose
         self.spilled: dict[int, FloatArray] = {}
         self.held: int | None = None
         self.parked = True
@@ -100,7 +100,7 @@ class JointWorld(ABC):
 
     @property
     @abstractmethod
-    def lying(self) -> FloatArray:
+    def object_poses(self) -> FloatArray:
         """Pose of every object ``(n, 7)``, anything for those that have spilled."""
 
     @property
@@ -150,7 +150,7 @@ class JointWorld(ABC):
         """Tell the arm to stand still at joint values ``(dof,)``; the fingers go on as told."""
 
     @abstractmethod
-    def give_way(self) -> None:
+    def comply(self) -> None:
         """Ask nothing of the arm but to lose its speed where it is, and to let what presses on it push it back."""
 
     @abstractmethod
@@ -234,14 +234,14 @@ class JointWorld(ABC):
             SimulationDivergedError: If the engine's numbers are no longer physical.
         """
         self.refuse_divergence()
-        self.spill(self.lying)
+        self.spill(self.object_poses)
 
-    def spill(self, lying: FloatArray) -> None:
+    def spill(self, object_poses: FloatArray) -> None:
         """Take out what has left the board, at poses ``(n, 7)``; the pose it was last seen at is kept."""
-        for row in np.flatnonzero((lying[:, 0] < 0.0) | (lying[:, 2] < 0.0)).tolist():
+        for row in np.flatnonzero((object_poses[:, 0] < 0.0) | (object_poses[:, 2] < 0.0)).tolist():
             held = row == self.held
-            if row not in self.spilled and condition_of(lying[row], held=held) is Condition.SPILLED:
-                self.spilled[row] = np.array(lying[row])
+            if row not in self.spilled and condition_of(object_poses[row], held=held) is Condition.SPILLED:
+                self.spilled[row] = np.array(object_poses[row])
                 self._remove(row)
 
     def refuse_divergence(self) -> None:
@@ -262,7 +262,7 @@ class JointWorld(ABC):
 
     def read_state(self) -> State:
         """The world as it is now."""
-        poses = np.array(self.lying)
+        poses = np.array(self.object_poses)
         conditions = [condition_of(pose, held=row == self.held) for row, pose in enumerate(poses)]
         for row, pose in self.spilled.items():
             poses[row], conditions[row] = pose, Condition.SPILLED
@@ -281,7 +281,7 @@ class JointWorld(ABC):
             return arm.joints
         x, y, yaw = (float(value) for value in arm.gripper)
         wanted = planar_pose(x, y, self.arm.shape.height, yaw)
-        found = self.arm.inverse(compose(inverse(self.mount.pose), wanted))
+        found = self.arm.inverse(compose(inverse(self.base_pose.pose), wanted))
         if found is None:
             raise InputError(f"the arm cannot have its fingertip at x {x:.3f} m, y {y:.3f} m, yaw {yaw:.2f} rad")
         return found

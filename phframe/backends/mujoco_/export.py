@@ -7,21 +7,21 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from phframe.backends.mujoco_.physics import MujocoOptions
 from phframe.backends.mujoco_.arm import PREFIX, arm_spec
-from phframe.core import ArmModel, IncompatibleError, Mount
+from phframe.backends.mujoco_.physics import MujocoOptions
+from phframe.core import ArmModel, BasePose, IncompatibleError
 
 HOME = "home"
 """Keyframe in which the arm is parked and every object stands at its place."""
 
 
-def with_arm(mjcf: str, arm: ArmModel[Any], mount: Mount) -> str:
-    """The text with the arm at its mount.
+def with_arm(mjcf: str, arm: ArmModel[Any], base_pose: BasePose) -> str:
+    """The text with the arm at its base pose.
 
     Args:
         mjcf: A scene.
         arm: The arm.
-        mount: Where its base stands in the world frame.
+        base_pose: Where its base stands in the world frame.
 
     Raises:
         IncompatibleError: If MuJoCo cannot load the arm.
@@ -30,7 +30,7 @@ def with_arm(mjcf: str, arm: ArmModel[Any], mount: Mount) -> str:
     friction = [defaults.arm_friction, defaults.turning_friction, defaults.rolling_friction]
     robot = arm_spec(arm, give=defaults.joint_give, finger_give=defaults.finger_give, friction=friction)
     spec = mujoco.MjSpec.from_string(mjcf)
-    frame = spec.worldbody.add_frame(pos=mount.pose[:3], quat=mount.pose[3:])
+    frame = spec.worldbody.add_frame(pos=base_pose.pose[:3], quat=base_pose.pose[3:])
     spec.attach(robot, prefix=PREFIX, frame=frame)
     try:
         model = spec.compile()

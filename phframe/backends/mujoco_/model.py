@@ -10,7 +10,7 @@ import numpy as np
 
 from phframe.backends.mujoco_.arm import PREFIX, arm_spec, lead
 from phframe.backends.mujoco_.shelf import Surfaces, foot_name, object_name, shelf_spec
-from phframe.core import ArmModel, FloatArray, IntArray, Mount, Scene
+from phframe.core import ArmModel, BasePose, FloatArray, IntArray, Scene
 from phframe.geometry.slabs import WALLS
 
 FORCE_SENSOR = "force on the arm"
@@ -39,7 +39,7 @@ class Model:
         mj: The model.
         scene: What is modelled.
         arm: In it.
-        mount: Of the arm.
+        base_pose: Of the arm.
         lying: Of every object's pose in qpos, ``(n, 7)``.
         depths_and_heights: Of every object's x and z in qpos ``(2n,)``.
         moving: Of every object's velocity in qvel, ``(n, 6)``.
@@ -61,8 +61,8 @@ class Model:
     mj: Any
     scene: Scene
     arm: ArmModel[Any]
-    mount: Mount
-    lying: IntArray
+    base_pose: BasePose
+    object_poses: IntArray
     depths_and_heights: IntArray
     moving: IntArray
     bodies: IntArray
@@ -88,7 +88,7 @@ class Model:
 def build_model(
     scene: Scene,
     arm: ArmModel[Any],
-    mount: Mount,
+    base_pose: BasePose,
     surfaces: Surfaces,
     controls: Controls,
     *,
@@ -104,10 +104,10 @@ def build_model(
     friction = surfaces.triple(controls.friction)
     robot = arm_spec(arm, give=controls.give, finger_give=controls.finger_give, friction=friction)
     root = PREFIX + robot.worldbody.first_body().name
-    frame = spec.worldbody.add_frame(pos=mount.pose[:3], quat=mount.pose[3:])
+    frame = spec.worldbody.add_frame(pos=base_pose.pose[:3], quat=base_pose.pose[3:])
     spec.attach(robot, prefix=PREFIX, frame=frame)
     _add_force_sensor(spec, root)
-    return _indexed(spec.compile(), scene, arm, mount)
+    return _indexed(spec.compile(), scene, arm, base_pose)
 
 
 def _add_force_sensor(spec: Any, root: str) -> None:
@@ -122,20 +122,20 @@ def _add_force_sensor(spec: Any, root: str) -> None:
     )
 
 
-def _indexed(mj: Any, scene: Scene, arm: ArmModel[Any], mount: Mount) -> Model:
+def _indexed(mj: Any, scene: Scene, arm: ArmModel[Any], base_pose: BasePose) -> Model:
     objects = [mj.joint(object_name(row)) for row in range(len(scene.objects))]
     names = _geom_names(mj, scene, arm)
     is_arm = tuple(mj.geom(row).name.startswith(PREFIX) for row in range(mj.ngeom))
     rows = {int(mj.body(object_name(row)).id): row for row in range(len(scene.objects))}
     links = [mj.body(PREFIX + link).id for link in arm.fingers.links]
-    lying = np.array([joint.qposadr[0] + np.arange(7) for joint in objects]).reshape(-1, 7)
+    object_poses = np.array([joint.qposadr[0] + np.arange(7) for joint in objects]).reshape(-1, 7)
     return Model(
         mj=mj,
         scene=scene,
         arm=arm,
-        mount=mount,
-        lying=lying,
-        depths_and_heights=lying[:, [0, 2]].ravel(),
+        base_pose=base_pose,
+        object_poses=object_poses,
+        depths_and_heights=object_poses[:, [0, 2]].ravel(),
         moving=np.array([joint.dofadr[0] + np.arange(6) for joint in objects]).reshape(-1, 6),
         bodies=np.array([mj.body(object_name(row)).id for row in range(len(scene.objects))]),
         feet=np.array([mj.geom(foot_name(row)).id for row in range(len(scene.objects))]),

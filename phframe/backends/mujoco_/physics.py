@@ -2,7 +2,7 @@
 
 The arm is its own URDF, held by a position servo on every joint that gives no more than the joint's real effort; it is
 never put anywhere by hand while it can touch something. What it holds, it holds by friction alone. A force on the arm
-above the trajectory's limit stalls it; it then gives way until nothing presses on it. An object that leaves the board is
+above the trajectory's limit stalls it; it then complies until nothing presses on it. An object that leaves the board is
 spilled, and is taken out of the world.
 
 MuJoCo's elliptic friction cone and a step of 2 ms keep the published scenes at rest; objects sink 0.1 mm into the board.
@@ -53,7 +53,7 @@ class MujocoPhysics(JointPhysics[MujocoOptions, World, Snapshot]):
         o = self.options
         surfaces = Surfaces(o.object_friction, o.turning_friction, o.rolling_friction, o.cone, o.friction_firmness)
         controls = Controls(o.joint_give, o.finger_give, o.arm_friction)
-        return build_model(self.scene, self.arm, self.mount, surfaces, controls, step=o.step, sleep=o.sleep)
+        return build_model(self.scene, self.arm, self.base_pose, surfaces, controls, step=o.step, sleep=o.sleep)
 
     def close(self) -> None:
         """Drop the engine's data and model."""

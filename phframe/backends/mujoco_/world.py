@@ -33,7 +33,7 @@ class World(JointWorld):
     engine = "mujoco"
 
     def __init__(self, model: Model, data: Any) -> None:
-        super().__init__(model.scene, model.arm, model.mount, model.mj.opt.timestep)
+        super().__init__(model.scene, model.arm, model.base_pose, model.mj.opt.timestep)
         self.model, self.data = model, data
         self.delay = self.step  # a step leaves poses one step behind the joints
         self._ranges = model.mj.actuator_forcerange[: model.dof]
@@ -68,9 +68,9 @@ class World(JointWorld):
         return np.array([pose[0], pose[1], yaw_of(pose)])
 
     @property
-    def lying(self) -> FloatArray:
+    def object_poses(self) -> FloatArray:
         """Pose of every object ``(n, 7)``."""
-        return np.asarray(self.data.qpos[self.model.lying])
+        return np.asarray(self.data.qpos[self.model.object_poses])
 
     @property
     def velocities(self) -> FloatArray:
@@ -128,7 +128,7 @@ class World(JointWorld):
         """Tell the arm to stand still at joint values ``(dof,)``."""
         self.data.ctrl[: self.model.dof] = positions
 
-    def give_way(self) -> None:
+    def comply(self) -> None:
         """Ask nothing of the arm but to be where it is; its servos are springs with dampers."""
         self.hold_joints(self.joints)
 
@@ -147,7 +147,7 @@ class World(JointWorld):
         """As every world, but with a quick look whether anything can have left the board at all."""
         self.refuse_divergence()
         if self.data.qpos.take(self.model.depths_and_heights).min() < 0.0:
-            self.spill(self.lying)
+            self.spill(self.object_poses)
 
     @contextmanager
     def running(self) -> Iterator[None]:
@@ -169,7 +169,7 @@ class World(JointWorld):
     def _place(self, state: State, joints: FloatArray, fingers: FloatArray, told_fingers: FloatArray) -> None:
         model, data = self.model, self.data
         mujoco.mj_resetData(model.mj, data)
-        data.qpos[model.lying] = state.poses
+        data.qpos[model.object_poses] = state.poses
         for row in self.spilled:
             self._remove(row)
         data.qpos[model.joints] = data.ctrl[: model.dof] = joints
@@ -179,7 +179,7 @@ class World(JointWorld):
     def _remove(self, row: int) -> None:
         """Put it far away, where it hangs still."""
         model, data = self.model, self.data
-        data.qpos[model.lying[row]] = planar_pose(-AWAY - row, 0.0)
+        data.qpos[model.object_poses[row]] = planar_pose(-AWAY - row, 0.0)
         data.qvel[model.moving[row]] = 0.0
         data.xfrc_applied[model.bodies[row], 2] = GRAVITY * model.scene.objects[row].mass
 

@@ -11,14 +11,14 @@ from typing import Any
 from phframe.backends.pybullet_.bodies import ARM, BOX, OBJECT, Surfaces
 from phframe.backends.pybullet_.output_capture import bullet, caught_output
 from phframe.backends.pybullet_.urdf import Coupling, PreparedUrdf
-from phframe.core import ArmModel, IncompatibleError, Mount
+from phframe.core import ArmModel, BasePose, IncompatibleError
 
 STIFFNESS, DAMPING = 5e3, 50.0
 """Of the arm's cover at every point of contact (N/m, Ns/m). A rigid one would make a blow of every touch."""
 COUPLING_FORCE = 1000.0
 """Greatest force or torque between coupled joints (N or Nm): more than anything here can push with."""
 COUPLING_GAIN = 0.2
-"""Share of the difference between coupled joints that is made good in a step."""
+"""Fraction of the difference between coupled joints that is made good in a step."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,13 +58,13 @@ class LoadedArm:
     sides: Mapping[int, int]
 
 
-def load_arm(client: int, arm: ArmModel[Any], mount: Mount, urdf: PreparedUrdf, surfaces: Surfaces) -> LoadedArm:
-    """Put an arm at its mount; its joints are at 0.
+def load_arm(client: int, arm: ArmModel[Any], base_pose: BasePose, urdf: PreparedUrdf, surfaces: Surfaces) -> LoadedArm:
+    """Put an arm at its base pose; its joints are at 0.
 
     Raises:
         IncompatibleError: If PyBullet cannot load the URDF.
     """
-    body = _load(client, arm, mount, urdf.text)
+    body = _load(client, arm, base_pose, urdf.text)
     loaded = _indexed(client, body, arm, urdf)
     for link in loaded.parts:
         _cover(client, body, link, surfaces)
@@ -75,8 +75,8 @@ def load_arm(client: int, arm: ArmModel[Any], mount: Mount, urdf: PreparedUrdf, 
     return loaded
 
 
-def _load(client: int, arm: ArmModel[Any], mount: Mount, text: str) -> int:
-    x, y, z, qw, qx, qy, qz = mount.pose.tolist()
+def _load(client: int, arm: ArmModel[Any], base_pose: BasePose, text: str) -> int:
+    x, y, z, qw, qx, qy, qz = base_pose.pose.tolist()
     with tempfile.TemporaryDirectory() as folder, caught_output() as said:
         path = Path(folder) / "arm.urdf"  # PyBullet reads files only
         path.write_text(text, encoding="utf-8")

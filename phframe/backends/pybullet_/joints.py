@@ -14,7 +14,7 @@ from phframe.backends.pybullet_.arm import LoadedArm
 from phframe.backends.pybullet_.output_capture import bullet
 from phframe.core import ArmModel, FloatArray
 
-SHARES = (0.1, 0.4, 0.8)
+FRACTIONS = (0.1, 0.4, 0.8)
 """Of the joints' ranges: postures in which to see whether an arm's weight moves its joints."""
 
 
@@ -51,7 +51,7 @@ def weight(client: int, arm: LoadedArm, values: Sequence[float]) -> tuple[float,
 def sags(client: int, arm: LoadedArm) -> bool:
     """Whether an arm's own weight moves any joint: not where they all slide level or turn about the vertical."""
     ranges = [arm.infos[joint][8:10] for joint in arm.movable]
-    postures = ([lower + share * (upper - lower) for lower, upper in ranges] for share in SHARES)
+    postures = ([lower + fraction * (upper - lower) for lower, upper in ranges] for fraction in FRACTIONS)
     return any(any(weight(client, arm, posture)) for posture in postures)
 
 

@@ -3,7 +3,7 @@
 The arm is its own URDF. Every joint has a motor with the joint's real speed and effort: a constraint, rigid up to that
 effort, so that arm and walls are given covers that yield where they touch. Joints carry the arm's weight besides that.
 The arm is never put anywhere by hand while it can touch something, and holds what it holds by friction alone. A force
-on it above the trajectory's limit stalls it; it then gives way until nothing presses on it. An object that leaves the
+on it above the trajectory's limit stalls it; it then complies until nothing presses on it. An object that leaves the
 board is spilled, and is taken out of the world.
 
 With a step of 2 ms and 50 iterations, none of the objects of the published scenes moves more than 0.02 mm in 5 s.
@@ -73,7 +73,7 @@ class PybulletPhysics(JointPhysics[PybulletOptions, World, Snapshot]):
         o = self.options
         surfaces = Surfaces(o.object_friction, o.arm_friction, o.turning_friction, o.rolling_friction)
         engine = Engine(o.step, o.iterations, o.joint_gain, surfaces, o.sleep)
-        return World(self.scene, self.arm, self.mount, self.urdf, engine)
+        return World(self.scene, self.arm, self.base_pose, self.urdf, engine)
 
     def _take(self, world: World) -> Snapshot:
         return take_snapshot(world)

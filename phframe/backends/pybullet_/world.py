@@ -15,19 +15,19 @@ from phframe.backends.pybullet_.arm import LoadedArm, load_arm
 from phframe.backends.pybullet_.bodies import Surfaces
 from phframe.backends.pybullet_.joints import inertias, place_joints, sags, weight
 from phframe.backends.pybullet_.output_capture import bullet
-from phframe.backends.pybullet_.sleeping import Rest
 from phframe.backends.pybullet_.shelf import Bodies, build_shelf, set_edge, stand
+from phframe.backends.pybullet_.sleeping import Rest
 from phframe.backends.pybullet_.urdf import PreparedUrdf
-from phframe.core import ArmModel, FloatArray, Mount, Scene, State, coulomb_with_board, yaw_of
+from phframe.core import ArmModel, BasePose, FloatArray, Scene, State, coulomb_with_board, yaw_of
 
 GRAVITY = 9.81
 NEAR = 1e-5
 """Bodies this close (m) touch, whether or not they press; Bullet tells of what is farther, too."""
 
 SLOWING = 0.01
-"""Time (s) in which an arm that gives way loses its speed."""
+"""Time (s) in which an arm that complies loses its speed."""
 YIELD = 0.02
-"""Share of its effort that a joint keeps while the arm gives way."""
+"""Fraction of its effort that a joint keeps while the arm complies."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ class World(JointWorld):
     Args:
         scene: What is in it.
         arm: In it.
-        mount: Of the arm.
+        base_pose: Of the arm.
         urdf: Of the arm.
         engine: How the engine is set.
 
@@ -70,8 +70,10 @@ class World(JointWorld):
     _rest: Rest
     _sags: bool
 
-    def __init__(self, scene: Scene, arm: ArmModel[Any], mount: Mount, urdf: PreparedUrdf, engine: Engine) -> None:
-        super().__init__(scene, arm, mount, engine.step)
+    def __init__(
+        self, scene: Scene, arm: ArmModel[Any], base_pose: BasePose, urdf: PreparedUrdf, engine: Engine
+    ) -> None:
+        super().__init__(scene, arm, base_pose, engine.step)
         self._settings, self._urdf = engine, urdf
         self.client: int = bullet.connect(bullet.DIRECT)
         # PyBullet has room for some thousand clients; those of worlds that nobody closes must not fill it.
@@ -114,7 +116,7 @@ class World(JointWorld):
         return np.array([x, y, yaw_of((x, y, z, qw, qx, qy, qz))])
 
     @property
-    def lying(self) -> FloatArray:
+    def object_poses(self) -> FloatArray:
         """Pose of every object ``(n, 7)``."""
         poses = np.zeros((len(self.scene.objects), 7))
         for row, body in self._bodies.objects.items():
@@ -191,10 +193,10 @@ class World(JointWorld):
         told = [*positions.tolist(), *self._way[-1][self._dof :]]
         self.tell(([told] * self.substeps, [0.0] * len(told)))
 
-    def give_way(self) -> None:
+    def comply(self) -> None:
         """Let the motors, which are rigid, give no more than it takes to slow the arm down."""
         states = self._states(self._loaded.joints[: self._dof])
-        fading = self._giving + 1  # the longer it gives way, the less is left to slow down
+        fading = self._giving + 1  # the longer it complies, the less is left to slow down
         slowing = self.inertias * np.abs([state[1] for state in states]) / SLOWING
         self.hold_joints(np.array([state[0] for state in states]))
         given = np.minimum((slowing + YIELD * self._most) / fading, self._efforts[: self._dof])
@@ -246,10 +248,10 @@ class World(JointWorld):
 
     def survey(self) -> None:
         """Look at everything, and let what is at rest sleep."""
-        lying, speeds = self.lying, self.speeds
+        object_poses, speeds = self.object_poses, self.speeds
         self._refuse(speeds)
-        self.spill(lying)
-        self._rest.look(lying, speeds)
+        self.spill(object_poses)
+        self._rest.look(object_poses, speeds)
 
     def _net_force(self) -> float:
         """On the arm, of all its contacts (N)."""
@@ -275,7 +277,7 @@ class World(JointWorld):
         self._bodies = build_shelf(self.client, self.scene, state, self._settings.surfaces)
         self._rest = Rest(self.client, self.scene, self._bodies, self._settings.surfaces, sleep=self._settings.sleep)
         self._rest.let_roll(state.poses)
-        self._loaded = load_arm(self.client, self.arm, self.mount, self._urdf, self._settings.surfaces)
+        self._loaded = load_arm(self.client, self.arm, self.base_pose, self._urdf, self._settings.surfaces)
         self._sags = sags(self.client, self._loaded)
         place_joints(self.client, self._loaded, self.arm, [*joints.tolist(), *fingers.tolist()])
         self._way = [[*joints.tolist(), *told_fingers.tolist()]]

@@ -7,9 +7,9 @@ from collections import deque
 
 import numpy as np
 
-from phframe.backends.pymunk_.gripper import between_fingers, gripped, hold, place_arm, place_held, release, set_opening
 from phframe.backends.pymunk_.braking import Pace, pace
-from phframe.backends.pymunk_.fast_forward import free_share, is_still, stays_outside
+from phframe.backends.pymunk_.fast_forward import free_fraction, is_still, stays_outside
+from phframe.backends.pymunk_.gripper import between_fingers, gripped, hold, place_arm, place_held, release, set_opening
 from phframe.backends.pymunk_.report import motion_of
 from phframe.backends.pymunk_.state import is_calm, read_state, refuse_divergence, spill
 from phframe.backends.pymunk_.world import ShelfSpace, note_contact, overlap
@@ -22,9 +22,9 @@ CALM_CHECK = 6
 START_POSITION, START_YAW = 2e-3, 1e-2
 """How far from the arm (m, rad) a trajectory may begin."""
 EASE_SPEED, EASE_STEPS, EASE_CHECK, EASED = 0.05, 60, 4, 1e-5
-"""How fast (m/s), for how many steps, looking how often, and down to which overlap (m) a stalled arm gives way."""
+"""How fast (m/s), for how many steps, looking how often, and down to which overlap (m) a stalled arm complies."""
 SATURATED = 0.999
-"""Share of the force limit at which the drive has nothing left to give."""
+"""Fraction of the force limit at which the drive has nothing left to give."""
 
 
 class Drive:
@@ -122,8 +122,8 @@ class Drive:
         start = np.array([*world.arm.carrier.position, world.arm.carrier.angle])
         held = None if world.held is None else np.array(world.items[world.held].body.position)
         begin, work = world.tick, pace.work(end - world.tick)
-        share = free_share(world, start, target)
-        free = end - begin if share >= 1.0 else min(math.floor(share * work), end - begin - pace.braking)
+        fraction = free_fraction(world, start, target)
+        free = end - begin if fraction >= 1.0 else min(math.floor(fraction * work), end - begin - pace.braking)
         self._impulses.extend([0.0] * min(free, len(self._impulses)))
         for world.tick in self._stops(begin, begin + free):
             way = (target - start) * (1.0 - pace.work(end - world.tick) / work)
@@ -233,8 +233,8 @@ class Drive:
         arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
         until = world.tick + EASE_STEPS
         while world.tick < until:
-            share = slow if overlap(world) > EASED else 0.0
-            arm.carrier.velocity = arm.body.velocity = -share * x, -share * y
+            fraction = slow if overlap(world) > EASED else 0.0
+            arm.carrier.velocity = arm.body.velocity = -fraction * x, -fraction * y
             self._advance(world.tick + EASE_CHECK)
 
     def _settle(self, settle: Settle) -> None:

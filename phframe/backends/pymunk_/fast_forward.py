@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phframe.backends.pymunk_.world import Item, ShelfSpace
-from phframe.core import FloatArray, turn
+from phframe.core import FloatArray, rotation_matrix
 
 MARGIN = 1e-3
 """The arm is free as long as it is farther than this (m) from everything."""
@@ -28,15 +28,15 @@ def is_still(world: ShelfSpace) -> bool:
     return True
 
 
-def free_share(world: ShelfSpace, start: FloatArray, end: FloatArray) -> float:
-    """The share, 0 to 1, of the way between two poses ``(3,)`` on which the arm and what it holds meet nothing."""
+def free_fraction(world: ShelfSpace, start: FloatArray, end: FloatArray) -> float:
+    """The fraction, 0 to 1, of the way between two poses ``(3,)`` on which the arm and what it holds meet nothing."""
     if start[2] != end[2]:
         return 1.0 if stays_outside(world, start, end) else 0.0
     if not _clear_of_walls(world, start, end):
         return 0.0
     others = [item for item in world.items.values() if item.name != world.held]
     points, radii = _obstacles(world, others)
-    back = turn(float(start[2]))
+    back = rotation_matrix(float(start[2]))
     lower, upper = _boxes(world, back, start)
     return _first_hit((points - start[:2]) @ back, radii, lower, upper, (end[:2] - start[:2]) @ back)
 
@@ -58,7 +58,7 @@ def _boxes(world: ShelfSpace, back: FloatArray, pose: FloatArray) -> tuple[Float
 
 
 def _first_hit(points: FloatArray, radii: FloatArray, lower: FloatArray, upper: FloatArray, way: FloatArray) -> float:
-    """The share of a way ``(2,)`` after which one of the boxes, grown by a radius, first holds a point."""
+    """The fraction of a way ``(2,)`` after which one of the boxes, grown by a radius, first holds a point."""
     near = lower[:, None, :] - radii[None, :, None] - points
     far = upper[:, None, :] + radii[None, :, None] - points
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -73,7 +73,7 @@ def _first_hit(points: FloatArray, radii: FloatArray, lower: FloatArray, upper: 
 
 def _clear_of_walls(world: ShelfSpace, start: FloatArray, end: FloatArray) -> bool:
     """Whether every corner of the arm stays between the walls, or before the mouth, all the way."""
-    corners = world.measures.corners_at(world.opening) @ turn(float(start[2])).T
+    corners = world.measures.corners_at(world.opening) @ rotation_matrix(float(start[2])).T
     if world.held is not None:
         item = world.items[world.held]
         rim = np.array(item.body.position) - start[:2] + item.radius * np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])

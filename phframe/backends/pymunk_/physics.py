@@ -45,7 +45,7 @@ class PymunkOptions(Options):
         arm_friction: Coulomb coefficient between the arm and objects.
         arm_mass: Inertia of the arm as the world feels it (kg).
         arm_acceleration: With which the arm comes to rest at the corners of its path (m/s^2); None: it stops dead.
-        standing_radius: Share of its radius at which an object stands on the board; friction acts there, so that what
+        standing_radius: Fraction of its radius at which an object stands on the board; friction acts there, so that what
             slides is easily turned. 2/3 resists turning on the spot as a disc does that presses evenly. None: turning
             is resisted as if nothing slid.
         stall_lag: How far the arm may fall behind its trajectory before it counts as stalled (m).

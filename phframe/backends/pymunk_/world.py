@@ -28,7 +28,7 @@ class Surfaces:
     Attributes:
         objects: Object against object.
         arm: Arm against object.
-        standing: Share of its radius at which an object stands on the board; None: it slides and turns separately.
+        standing: Fraction of its radius at which an object stands on the board; None: it slides and turns separately.
     """
 
     objects: float
@@ -41,7 +41,7 @@ class Surfaces:
         return math.sqrt(self.objects)
 
     def partner_factor(self, coefficient: float) -> float:
-        """The share of what touches an object with a coefficient."""
+        """The fraction of what touches an object with a coefficient."""
         return coefficient / self.object_factor if self.object_factor > 0.0 else 0.0
 
 

@@ -13,7 +13,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from phframe.bench.meters.outcomes import Outcome, Tally, choices, run_suite, tally
+from phframe.bench.meters.outcomes import Outcome, Tally, deviations, run_suite, tally
 from phframe.bench.meters.overhead import measure
 from phframe.bench.meters.single import diagram_time, help_times
 from phframe.bench.meters.space import fit_in_space, measure_in_space
@@ -73,7 +73,7 @@ def _suites(console: Console, given: argparse.Namespace, scenes: Sequence[str]) 
             tallies = [tally(planner, suite, [o for o in outcomes if o.suite == suite]) for suite in PUBLISHED]
             tallies.append(tally(planner, "all", outcomes))
             _print_outcomes(console, planner, tallies, outcomes)
-            rows += [{**asdict(t), "choices": choices(outcomes) if t.suite == "all" else {}} for t in tallies]
+            rows += [{**asdict(t), "choices": deviations(outcomes) if t.suite == "all" else {}} for t in tallies]
     return rows
 
 
@@ -99,8 +99,8 @@ def _print_outcomes(console: Console, planner: str, tallies: Sequence[Tally], ou
     for outcome in outcomes:
         if not outcome.episode.clean:
             console.print(f"  {outcome.scene}: {outcome.episode.status}, {outcome.episode.reason or 'not clean'}")
-    used = ", ".join(f"{name} {count}" for name, count in choices(outcomes).most_common())
-    console.print(f"  settlements of what the paper leaves open: {used or 'none'}\n")
+    used = ", ".join(f"{name} {count}" for name, count in deviations(outcomes).most_common())
+    console.print(f"  deviations of what the paper leaves open: {used or 'none'}\n")
 
 
 def _overhead(console: Console, scenes: Sequence[str]) -> list[dict[str, Any]]:

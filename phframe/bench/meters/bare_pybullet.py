@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from typing import Any
 from unittest.mock import patch
 
-from phframe.backends.pybullet_.physics import PybulletPhysics
 from phframe.backends.pybullet_.output_capture import bullet
+from phframe.backends.pybullet_.physics import PybulletPhysics
 
 STEP = "stepSimulation"
 WRITING = (

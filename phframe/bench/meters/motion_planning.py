@@ -57,7 +57,7 @@ def _lifted(world: ExecutionWorld, state: State, plan: Plan) -> tuple[tuple[floa
     times, unreachable, arm = [], 0, None
     for action, expected in zip(plan.actions, plan.expected, strict=True):
         began = time.perf_counter()
-        trajectory: Any = world.lift(replace(state, held=None, arm=arm), action)
+        trajectory: Any = world.plan_trajectory(replace(state, held=None, arm=arm), action)
         times.append(time.perf_counter() - began)
         if isinstance(trajectory, Unreachable):
             unreachable += 1

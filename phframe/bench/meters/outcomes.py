@@ -108,6 +108,6 @@ def was_cleared(episode: Episode) -> bool:
     return bool(plan.expected and corridors) and is_cleared(episode.scene, plan.expected[-1], corridors[-1].half_width)
 
 
-def choices(outcomes: Sequence[Outcome]) -> Counter[str]:
-    """How often phframe's settlements of what the paper leaves open were used, over all plans."""
-    return sum((plan.choices for outcome in outcomes for plan in outcome.episode.plans), Counter())
+def deviations(outcomes: Sequence[Outcome]) -> Counter[str]:
+    """How often phframe's deviations of what the paper leaves open were used, over all plans."""
+    return sum((plan.deviations for outcome in outcomes for plan in outcome.episode.plans), Counter())

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pymunk
 
-from phframe.backends.pymunk_.physics import PymunkPhysics
 from phframe.backends.pymunk_.gripper import place_arm
+from phframe.backends.pymunk_.physics import PymunkPhysics
 from phframe.backends.pymunk_.world import ShelfSpace, build_world
 from phframe.core import Action, Plan, Planner, State, TopologyEngine, Transition, Watch
 from phframe.registry import Kind, create
@@ -133,7 +133,7 @@ def _bare(world: PlanningWorld, applied: Sequence[tuple[State, Action]]) -> tupl
 
 def _legs(world: PlanningWorld, state: State, action: Action, step: float) -> list[tuple[tuple[float, float], int]]:
     """Velocity (m/s) and number of steps of each leg of the action's own path, without the approach."""
-    trajectory: Any = world.lift(state, action)
+    trajectory: Any = world.plan_trajectory(state, action)
     first = len(trajectory.phases) - len(action.path.phases)
     spans = np.diff(trajectory.times)[first:]
     ways = np.diff(trajectory.poses[:, :2], axis=0)[first:]

@@ -13,7 +13,10 @@ from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.solve import solve
 from phframe.runtime.world import WorldSpec
 
-BARE: Mapping[str, str] = {"mujoco": "phframe.bench.meters.bare_mujoco", "pybullet": "phframe.bench.meters.bare_pybullet"}
+BARE: Mapping[str, str] = {
+    "mujoco": "phframe.bench.meters.bare_mujoco",
+    "pybullet": "phframe.bench.meters.bare_pybullet",
+}
 """Where the bare loop of an engine is: a module with ``note`` and ``play``."""
 BARS: Mapping[str, float] = {"mujoco": 1.15, "pybullet": 1.3}
 """What simulating an episode may cost at most, over the bare loop."""

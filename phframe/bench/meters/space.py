@@ -22,7 +22,7 @@ from phframe.runtime.solve import PLAN_OPTIONS
 ENGINE = "mujoco"
 """Whose outcomes are predicted."""
 LEAST_ALIKE = 27 / 31
-"""In what share of the sweeps the same objects are to be in the corridor."""
+"""In what fraction of the sweeps the same objects are to be in the corridor."""
 
 
 def measure_in_space(console: Console, scenes: Sequence[str]) -> dict[str, Any]:
@@ -60,7 +60,7 @@ def _can_move(arm: str) -> bool:
     try:
         model = create(Kind.ARM, arm)
         scene = find_scene("vieira/basic")
-        model.motion_planner(scene, model.default_mount(scene.shelf))
+        model.motion_planner(scene, model.default_base_pose(scene.shelf))
     except NotInstalledError:
         return False
     return True

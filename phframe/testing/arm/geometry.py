@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from phframe.core import ArmError, FloatArray, Outline, compose, tilt_of, turn, yaw_of
+from phframe.core import ArmError, FloatArray, Outline, compose, rotation_matrix, tilt_of, yaw_of
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_at_most, expect_close, expect_raises
 from phframe.testing.subjects import ArmUnderTest
@@ -87,9 +87,9 @@ def openings_out_of_range_are_refused(subject: ArmUnderTest) -> Faults:
 
 @check
 def home_is_outside_the_shelf(subject: ArmUnderTest) -> Faults:
-    """ArmModel.home: the parked arm, outside the shelf, for the default mount."""
+    """ArmModel.home: the parked arm, outside the shelf, for the default base pose."""
     arm = subject.arm
-    tip = compose(arm.default_mount(subject.shelf).pose, arm.forward(arm.home))
+    tip = compose(arm.default_base_pose(subject.shelf).pose, arm.forward(arm.home))
     yield from expect(tip[0] <= 0.0, "the fingertip before the mouth", f"at x = {tip[0]:g} m")
     if tilt_of(tip) > LEVEL:
         return
@@ -104,7 +104,7 @@ def _width(outlines: list[Outline] | tuple[Outline, ...]) -> float:
 
 
 def _placed(outline: Outline, tip: FloatArray) -> FloatArray:
-    return np.asarray(outline.vertices @ turn(yaw_of(tip)).T + tip[:2])
+    return np.asarray(outline.vertices @ rotation_matrix(yaw_of(tip)).T + tip[:2])
 
 
 GEOMETRY_CHECKS: tuple[Check[ArmUnderTest], ...] = (

@@ -142,12 +142,12 @@ def bad_poses_are_refused(subject: ArmUnderTest) -> Faults:
 
 
 @check
-def default_mount_lets_it_reach_in(subject: ArmUnderTest) -> Faults:
+def default_base_pose_lets_it_reach_in(subject: ArmUnderTest) -> Faults:
     """ArmModel.default_mount: where the base stands for a shelf, so that the gripper gets to the middle of it."""
     arm, shelf = subject.arm, subject.shelf
-    base = inverse(arm.default_mount(shelf).pose)
-    for share in (0.1, 0.3, 0.5):
-        wanted = planar_pose(share * shelf.depth, shelf.width / 2.0, arm.shape.height)
+    base = inverse(arm.default_base_pose(shelf).pose)
+    for fraction in (0.1, 0.3, 0.5):
+        wanted = planar_pose(fraction * shelf.depth, shelf.width / 2.0, arm.shape.height)
         found = arm.inverse(compose(base, wanted), arm.home)
         yield from expect(found is not None, f"joint values for the fingertip at {wanted[:3]} in the shelf", "None")
 
@@ -176,5 +176,5 @@ KINEMATICS_CHECKS: tuple[Check[ArmUnderTest], ...] = (
     inverse_says_no_out_of_reach,
     bad_joint_values_are_refused,
     bad_poses_are_refused,
-    default_mount_lets_it_reach_in,
+    default_base_pose_lets_it_reach_in,
 )

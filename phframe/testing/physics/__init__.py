@@ -40,7 +40,7 @@ def check_physics(
     """Check that a backend keeps to ``Physics`` with an arm.
 
     Args:
-        factory: Makes a new backend, as in ``lambda scene, arm, mount: MyPhysics(scene, arm, mount, MyOptions())``.
+        factory: Makes a new backend, as in ``lambda scene, arm, base_pose: MyPhysics(scene, arm, base_pose, MyOptions())``.
         arm: The arm.
         tolerances: ``PLANAR``, or ``SPATIAL`` for an engine in space, ``JOINTED`` with an arm of joints.
         lift: Finds the joints for a gripper trajectory, where the backend executes those; None: straight on, by the

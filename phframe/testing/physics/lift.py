@@ -9,11 +9,11 @@ import numpy as np
 
 from phframe.core import (
     ArmModel,
+    BasePose,
     FloatArray,
     GripperTrajectory,
     InputError,
     JointTrajectory,
-    Mount,
     Phase,
     State,
     compose,
@@ -25,10 +25,12 @@ from phframe.core import (
 SAMPLE = 0.02
 """Seconds between joint samples."""
 HURRY = 0.5
-"""Share of a joint's speed limit at which it moves to the beginning."""
+"""Fraction of a joint's speed limit at which it moves to the beginning."""
 
 
-def lift_straight(trajectory: GripperTrajectory, state: State, arm: ArmModel[Any], mount: Mount) -> JointTrajectory:
+def lift_straight(
+    trajectory: GripperTrajectory, state: State, arm: ArmModel[Any], base_pose: BasePose
+) -> JointTrajectory:
     """Joints straight from where they are to the beginning, then along the trajectory by inverse kinematics.
 
     It looks at no obstacle: what stands before the mouth of the test scenes is nothing.
@@ -36,15 +38,15 @@ def lift_straight(trajectory: GripperTrajectory, state: State, arm: ArmModel[Any
     Raises:
         InputError: If the arm cannot reach a pose, or not as fast.
     """
-    start = _joints(state, arm, mount)
+    start = _joints(state, arm, base_pose)
     times = _sample_times(trajectory)
     gripper = np.array([trajectory.at(time)[0] for time in times])
-    joints = _follow(gripper, start, arm, mount)
+    joints = _follow(gripper, start, arm, base_pose)
     approach = _approach(start, joints[0], arm)
     positions = np.vstack([approach[:-1], joints])
     lead = _lead_times(approach)
     all_times = np.concatenate([lead[:-1], times + lead[-1]])
-    seen = [_seen_from_above(q, arm, mount) for q in approach[:-1]]
+    seen = [_seen_from_above(q, arm, base_pose) for q in approach[:-1]]
     _refuse_hurry(times, joints, arm)
     openings = np.array([trajectory.at(time)[1] for time in times])
     phases = [Phase.APPROACH] * (len(approach) - 1) + [trajectory.phase_at((a + b) / 2) for a, b in pairwise(times)]
@@ -58,12 +60,12 @@ def lift_straight(trajectory: GripperTrajectory, state: State, arm: ArmModel[Any
     return JointTrajectory(lifted, positions, _speeds(all_times, positions))
 
 
-def _joints(state: State, arm: ArmModel[Any], mount: Mount) -> FloatArray:
+def _joints(state: State, arm: ArmModel[Any], base_pose: BasePose) -> FloatArray:
     if state.arm is None:
         return np.asarray(arm.home)
     if state.arm.joints is not None:
         return state.arm.joints
-    return np.asarray(_follow(state.arm.gripper[None], np.asarray(arm.home), arm, mount)[0])
+    return np.asarray(_follow(state.arm.gripper[None], np.asarray(arm.home), arm, base_pose)[0])
 
 
 def _refuse_hurry(times: FloatArray, joints: FloatArray, arm: ArmModel[Any]) -> None:
@@ -80,8 +82,8 @@ def _sample_times(trajectory: GripperTrajectory) -> FloatArray:
     return np.unique(np.concatenate([even, trajectory.times]))
 
 
-def _follow(gripper: FloatArray, seed: FloatArray, arm: ArmModel[Any], mount: Mount) -> FloatArray:
-    base = inverse(mount.pose)
+def _follow(gripper: FloatArray, seed: FloatArray, arm: ArmModel[Any], base_pose: BasePose) -> FloatArray:
+    base = inverse(base_pose.pose)
     found: list[FloatArray] = []
     for x, y, yaw in gripper:
         q = arm.inverse(compose(base, planar_pose(x, y, arm.shape.height, yaw)), found[-1] if found else seed)
@@ -102,8 +104,8 @@ def _lead_times(approach: FloatArray) -> FloatArray:
     return np.asarray(np.arange(len(approach)) * (0.0 if still else SAMPLE), dtype=np.float64)
 
 
-def _seen_from_above(q: FloatArray, arm: ArmModel[Any], mount: Mount) -> FloatArray:
-    tip = compose(mount.pose, arm.forward(q))
+def _seen_from_above(q: FloatArray, arm: ArmModel[Any], base_pose: BasePose) -> FloatArray:
+    tip = compose(base_pose.pose, arm.forward(q))
     return np.array([tip[0], tip[1], yaw_of(tip)])
 
 

@@ -197,7 +197,7 @@ def _joints_at(stand: Stand, gripper: FloatArray, seed: FloatArray | None) -> Fl
     if seed is None:
         return None
     x, y, yaw = gripper.tolist()
-    pose = compose(inverse(stand.mount.pose), planar_pose(x, y, stand.arm.shape.height, yaw))
+    pose = compose(inverse(stand.base_pose.pose), planar_pose(x, y, stand.arm.shape.height, yaw))
     return stand.arm.inverse(pose, seed)
 
 

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from phframe.core import (
+    BasePose,
     FloatArray,
     GripperPath,
     GripperTrajectory,
     InputError,
     JointTrajectory,
-    Mount,
     Phase,
     Physics,
     Scene,
@@ -45,8 +45,8 @@ class Stand:
     def __init__(self, subject: PhysicsUnderTest, scene: Scene) -> None:
         self.subject, self.scene, self.arm = subject, scene, subject.arm
         self.tolerances = subject.tolerances
-        self.mount: Mount = subject.arm.default_mount(scene.shelf)
-        self.physics: Physics[Any] = subject.factory(scene, subject.arm, self.mount)
+        self.base_pose: BasePose = subject.arm.default_base_pose(scene.shelf)
+        self.physics: Physics[Any] = subject.factory(scene, subject.arm, self.base_pose)
         self.start = scene.initial_state()
 
     def trajectory(self, state: State, path: GripperPath, force_limit: float | None = None) -> Trajectory:
@@ -80,9 +80,9 @@ class Stand:
         """
         if self.physics.executes is not JointTrajectory:
             return trajectory
-        lift = self.subject.lift or lift_straight
+        lift = self.subject.plan_trajectory or lift_straight
         try:
-            return lift(trajectory, state, self.arm, self.mount)
+            return lift(trajectory, state, self.arm, self.base_pose)
         except InputError as error:
             raise NotApplicableError(f"the arm cannot do what this check needs: {error}") from error
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from phframe.core import FloatArray, IntArray, PersistenceDiagram, turn
+from phframe.core import FloatArray, IntArray, PersistenceDiagram, rotation_matrix
 from phframe.core.topology import FLOAT32_SLACK
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_close, expect_equal
@@ -155,7 +155,7 @@ def points_are_not_changed(subject: EngineUnderTest) -> Faults:
 
 
 def _moved(points: FloatArray) -> Iterator[tuple[FloatArray, str]]:
-    yield points @ turn(0.7).T, "turned"
+    yield points @ rotation_matrix(0.7).T, "turned"
     yield points + np.array([0.4, -0.3]), "shifted"
     yield points * np.array([-1.0, 1.0]), "mirrored"
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from phframe.core import Action, Decision, Infeasible, Plan, Planner, State, Status, Task
-from phframe.pushing.deviation import Choice
 from phframe.pushing.clear import UNCHANGED
+from phframe.pushing.deviation import Deviation
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.outcome import grasp_outcome
-from phframe.pushing.push_problem import Pushing, Situation
+from phframe.pushing.push_problem import Pushing, PushProblem
 
 Proposal = tuple[Decision, Action]
 
@@ -62,16 +62,16 @@ class _Search:
         """Sweep until the corridor is empty and nothing keeps the fingers from the target; then grasp."""
         blockers: tuple[str, ...] = ()
         for _ in range(self._options.max_actions):
-            situation = self._pushing.situation(self._progress.state, blockers)
-            if not isinstance(situation, Infeasible) and len(situation.members) == 0:
-                grasp = self._grasp(situation)
+            problem = self._pushing.problem(self._progress.state, blockers)
+            if not isinstance(problem, Infeasible) and len(problem.members) == 0:
+                grasp = self._grasp(problem)
                 if isinstance(grasp, Plan):
                     return grasp
                 blockers = grasp.blockers
-                situation = self._pushing.situation(self._progress.state, blockers) if blockers else grasp
-            if isinstance(situation, Infeasible):
-                return self._progress.plan(Status.FAILED, situation.reason)
-            proposal = self._propose(situation)
+                problem = self._pushing.problem(self._progress.state, blockers) if blockers else grasp
+            if isinstance(problem, Infeasible):
+                return self._progress.plan(Status.FAILED, problem.reason)
+            proposal = self._propose(problem)
             if proposal is None:
                 return self._progress.plan(Status.FAILED, "no sweep fits beside any obstacle")
             if self._sweep(*proposal):
@@ -80,30 +80,32 @@ class _Search:
 
     def _after_the_last_attempt(self) -> Plan:
         """The grasp, if the last sweep freed the target."""
-        situation = self._pushing.situation(self._progress.state)
-        if not isinstance(situation, Infeasible) and len(situation.members) == 0:
-            grasp = self._grasp(situation)
+        problem = self._pushing.problem(self._progress.state)
+        if not isinstance(problem, Infeasible) and len(problem.members) == 0:
+            grasp = self._grasp(problem)
             if isinstance(grasp, Plan):
                 return grasp
         return self._progress.plan(Status.FAILED, f"the target is not free; attempts made: {self._options.max_actions}")
 
-    def _propose(self, situation: Situation) -> Proposal | None:
+    def _propose(self, problem: PushProblem) -> Proposal | None:
         """A random direction of the first obstacle, in random order, beside which a sweep fits."""
-        for member in self._task.rng.permutation(len(situation.members)):
-            proposals = self._proposals(situation, int(member))
+        for member in self._task.rng.permutation(len(problem.members)):
+            proposals = self._proposals(problem, int(member))
             if proposals:
                 return proposals[self._task.rng.integers(len(proposals))]
         return None
 
-    def _proposals(self, situation: Situation, member: int) -> list[Proposal]:
+    def _proposals(self, problem: PushProblem, member: int) -> list[Proposal]:
         """The best sweep of one obstacle in each direction, if one fits that was not rejected."""
         best: dict[int, Proposal] = {}
-        for decision, action in self._pushing.sweeps(situation, np.array([member])):
+        for decision, action in self._pushing.sweeps(problem, np.array([member])):
             sweep = decision.sweep
             assert sweep is not None, "a sweep's decision says which"
             # Here chance settles the direction, not the paper's silence.
-            choices = tuple(choice for choice in decision.choices if choice != Choice.OTHER_DIRECTION)
-            best.setdefault(sweep.direction, (replace(decision, choices=choices, parent=self._progress.last), action))
+            deviations = tuple(deviation for deviation in decision.deviations if deviation != Deviation.OTHER_DIRECTION)
+            best.setdefault(
+                sweep.direction, (replace(decision, deviations=deviations, parent=self._progress.last), action)
+            )
         return list(best.values())
 
     def _sweep(self, decision: Decision, action: Action) -> bool:
@@ -115,14 +117,14 @@ class _Search:
         self._progress.add(decision, action, after)
         return True
 
-    def _grasp(self, situation: Situation) -> Plan | Infeasible:
+    def _grasp(self, problem: PushProblem) -> Plan | Infeasible:
         """Reach, grasp and withdraw; or why that is not possible."""
         scene, progress = self._task.scene, self._progress
-        grasp = self._pushing.grasp(situation)
+        grasp = self._pushing.grasp(problem)
         if isinstance(grasp, Infeasible):
             return grasp
         made = self._task.apply(progress.state, grasp.action)
-        decision = Decision(corridor=situation.corridor, choices=grasp.choices, parent=progress.last)
+        decision = Decision(corridor=problem.corridor, deviations=grasp.deviations, parent=progress.last)
         progress.add(decision, grasp.action, made.state)
         path, half_width = grasp.action.path, self._pushing.half_width
         done = made.motion.complete

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from phframe.bench.meters import __main__ as bench
-from phframe.bench.meters.outcomes import Outcome, choices, run_suite, tally, was_cleared
+from phframe.bench.meters.outcomes import Outcome, deviations, run_suite, tally, was_cleared
 from phframe.core import Condition, Episode, Plan, State, Status
 from phframe.runtime.solve import solve
 
@@ -71,11 +71,11 @@ def test_a_failed_plan_that_leaves_an_empty_corridor_has_cleared() -> None:
 
 
 def test_settlements_are_those_of_all_plans() -> None:
-    counted = Counter(c for o in OUTCOMES for plan in o.episode.plans for d in plan.decisions for c in d.choices)
+    counted = Counter(c for o in OUTCOMES for plan in o.episode.plans for d in plan.decisions for c in d.deviations)
     assert counted
-    assert choices(OUTCOMES) == counted
+    assert deviations(OUTCOMES) == counted
     twice = replace(OUTCOMES[2].episode, plans=OUTCOMES[2].episode.plans * 2)
-    assert choices([Outcome("x", "x/y", twice)]).total() == 2 * choices([OUTCOMES[2]]).total()
+    assert deviations([Outcome("x", "x/y", twice)]).total() == 2 * deviations([OUTCOMES[2]]).total()
 
 
 def _with_last(episode: Episode, condition: Condition) -> Episode:
