@@ -91,5 +91,5 @@ def _sentence(fractions: Mapping[str, Any]) -> str:
     x, y, z, yaw = fractions["mount"]
     return (
         f"{fractions['arm']} with its base at x {x:.3f}, y {y:.3f}, z {z:.3f} m, yaw {yaw:.3f} rad reaches "
-        f"{fractions['share']:.1%} of the shelf of {fractions['scene']}, {fractions['straight']:.1%} without turning the gripper"
+        f"{fractions['fraction']:.1%} of the shelf of {fractions['scene']}, {fractions['straight']:.1%} without turning the gripper"
     )

@@ -122,7 +122,8 @@ class World:
         if fraction is not None and fraction < LEAST_SERVED:
             raise IncompatibleError(
                 f"arm {self.spec.arm!r} at its base pose {self.base_pose} reaches {fraction:.0%} of the shelf, and "
-                f"{LEAST_SERVED:.0%} is the least to begin with: give the scene another base pose; 'phframe arm reach' draws what one reaches"
+                f"{LEAST_SERVED:.0%} is the least to begin with: give the scene another base pose; "
+                "'phframe arm reach' draws what one reaches"
             )
 
     @property

@@ -185,7 +185,7 @@ BROKEN: dict[str, type[PlanarArm]] = {
     "inverse_says_no_out_of_reach": AlwaysFinds,
     "bad_joint_values_are_refused": TakesAnything,
     "bad_poses_are_refused": TakesAnything,
-    "default_mount_lets_it_reach_in": StandsFarAway,
+    "default_base_pose_lets_it_reach_in": StandsFarAway,
     "outlines_are_convex_and_counter_clockwise": Clockwise,
     "origin_is_at_the_tip": AheadOfItself,
     "widths_are_those_of_the_outlines": Wider,

@@ -53,7 +53,7 @@ def seen(q: FloatArray, base_pose: BasePose) -> list[float]:
 
 
 @pytest.mark.parametrize(
-    "mount", [BasePose(-0.1, 0.3, 0.06, 0.0), BasePose(-0.4, 0.1, 0.06, 0.7)], ids=["straight", "turned"]
+    "base_pose", [BasePose(-0.1, 0.3, 0.06, 0.0), BasePose(-0.4, 0.1, 0.06, 0.7)], ids=["straight", "turned"]
 )
 def test_the_fingertip_follows_the_path(base_pose: BasePose) -> None:
     trajectory = lifted(PATH, SCENE.initial_state(), base_pose)
