@@ -12,7 +12,7 @@ from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
 from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_problem import PushProblem
-from phframe.pushing.push_search import UNCHANGED, PushSearch, is_unchanged
+from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, is_unchanged
 from phframe.pushing.pushing import Pushing
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
 from phframe.pushing.sweep import Sweep, push_action
@@ -25,6 +25,7 @@ __all__ = [
     "Corridor",
     "Deviation",
     "Grasp",
+    "Proposal",
     "PushDecision",
     "PushProblem",
     "PushSearch",

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from phframe.core import ROOT, FloatArray, Infeasible, Plan, Task
+from phframe.core import ROOT, FloatArray, Plan, Task
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.grasp import Grasp
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.push_search import Proposal, PushSearch, is_unchanged
@@ -33,17 +32,13 @@ class Clearing:
     def run(self) -> Plan:
         """Push until the corridor is empty, then grasp."""
         node = ROOT
-        while True:
-            step = self._search.next_step(node)
-            if isinstance(step, Grasp):
-                return self._search.grasp(node, step)
-            if isinstance(step, Infeasible):
-                return self._search.fail(node, step.reason)
+        while isinstance(step := self._search.next_step(node), PushProblem):
             pushed = self._push(node, step)
             if isinstance(pushed, str):
                 blocked = f"grasp blocked by {', '.join(step.blockers)}: " if step.blockers else ""
                 return self._search.fail(node, blocked + pushed)
             node = pushed
+        return self._search.finish(node, step)
 
     def _push(self, node: int, problem: PushProblem) -> int | str:
         """Go on from a node by one push; why not, where that fails."""

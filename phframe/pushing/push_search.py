@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from phframe.core import ROOT, Action, Attempt, Decision, Infeasible, Plan, State, Status, Task, Transition
+from phframe.core import Action, Attempt, Decision, Infeasible, Plan, State, Status, Task, Transition
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.grasp import Grasp
 from phframe.pushing.options import PushingOptions
@@ -78,6 +78,10 @@ class PushSearch:
         decision = found.decision or Decision()
         self.tree.reopen(node, replace(decision, deviations=(*decision.deviations, *deviations)))
 
+    def finish(self, node: int, step: Grasp | Infeasible) -> Plan:
+        """The plan that ends at a node, where nothing is left to be pushed: with a grasp, or with why there is none."""
+        return self.grasp(node, step) if isinstance(step, Grasp) else self.fail(node, step.reason)
+
     def grasp(self, node: int, grasp: Grasp) -> Plan:
         """The plan that ends with a grasp from a node, simulated and judged by the task's goal."""
         decision = PushDecision("nothing blocks the grasp", grasp.deviations, corridor=grasp.corridor)
@@ -119,6 +123,3 @@ def _fault(penalty: int, made: Transition) -> str:
 def is_unchanged(before: State, after: State) -> bool:
     """Whether no object moved by more than a millimetre, which makes an action a failure (the paper's "unchanged")."""
     return bool((after.displacement(before) <= UNCHANGED).all())
-
-
-__all__ = ["ROOT", "UNCHANGED", "Proposal", "PushSearch", "is_unchanged"]
