@@ -297,8 +297,8 @@ def test_without_toppra_there_is_one_too(monkeypatch: pytest.MonkeyPatch) -> Non
     for name in [name for name in sys.modules if name.partition(".")[0] == "toppra"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "toppra", None)
-    for name in ("articulated_motion", "schedule", "toppra_"):
-        monkeypatch.delitem(sys.modules, f"phframe.arms.{name}", raising=False)
+    for name in ("articulated", "time_parametrisation", "toppra_"):
+        monkeypatch.delitem(sys.modules, f"phframe.motion.{name}", raising=False)
     with pytest.raises(NotInstalledError, match=r"Baxter needs toppra.*phframe\[baxter\]") as caught:
         planner(baxter())
     assert "\n" not in str(caught.value)
