@@ -39,25 +39,26 @@ SCENE = Scene(
     (SceneObject("red", Cylinder(0.03), RED), SceneObject("blue", Cylinder(0.03), BLUE)),
     "red",
 )
-OPEN, OUT = 0.075, -0.13
+OPEN, OUT, WITHIN = 0.075, -0.13, 0.1
+"""Opening of the fingers (m), and where the fingertip is outside the shelf, and as it carries blue across (m)."""
 
 
-def grasp(name: str, at: tuple[float, float]) -> Action:
-    """Straight in, close, straight out."""
+def grasp(name: str, at: tuple[float, float], drawn_to: float = OUT) -> Action:
+    """Straight in, close, straight back."""
     legs = (Phase.REACH, Phase.GRASP, Phase.WITHDRAW)
     (x, y), openings = at, (OPEN, 0.0, 0.0)
     rules = {leg: PhaseRule(0.25, each, Contacts.MANIPULAND) for leg, each in zip(legs, openings, strict=True)}
-    poses = np.array([[OUT - 0.1, y, 0.0], [x + 0.02, y, 0.0], [x + 0.02, y, 0.0], [OUT, y, 0.0]])
+    poses = np.array([[OUT - 0.1, y, 0.0], [x + 0.02, y, 0.0], [x + 0.02, y, 0.0], [drawn_to, y, 0.0]])
     return Action(f"grasp {name}", GripperPath(poses, legs, rules, name), (name,), ActionKind.GRASP)
 
 
 def place(name: str, begin: tuple[float, float], at: tuple[float, float]) -> Action:
-    """Across before the mouth, in, open, straight out."""
+    """Across, in, open, straight out."""
     legs = (Phase.PLACE, Phase.PLACE, Phase.RELEASE, Phase.RETREAT)
     rules = {leg: PhaseRule(0.2, 0.0, Contacts.MANIPULAND) for leg in legs}
     rules |= {leg: PhaseRule(0.2, OPEN, Contacts.MANIPULAND) for leg in (Phase.RELEASE, Phase.RETREAT)}
     y, tip = at[1], at[0] + 0.02
-    poses = np.array([[OUT, begin[1], 0.0], [OUT, y, 0.0], [tip, y, 0.0], [tip, y, 0.0], [OUT, y, 0.0]])
+    poses = np.array([[WITHIN, begin[1], 0.0], [WITHIN, y, 0.0], [tip, y, 0.0], [tip, y, 0.0], [OUT, y, 0.0]])
     return Action(f"place {name}", GripperPath(poses, legs, rules, name), (name,), ActionKind.PLACE)
 
 
@@ -66,7 +67,7 @@ class PickAndPlace(Planner[Options]):
 
     def search(self, task: Task) -> Plan:
         tree, node = SearchTree(task.start), ROOT
-        for action in (grasp("blue", BLUE), place("blue", BLUE, ELSEWHERE), grasp("red", RED)):
+        for action in (grasp("blue", BLUE, WITHIN), place("blue", BLUE, ELSEWHERE), grasp("red", RED)):
             made = task.apply(tree[node].state, action)
             node = tree.child(node, action, made)
         outcome = task.goal.assess(task.scene, made.state, Attempt(action, made.motion))
