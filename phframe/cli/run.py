@@ -81,13 +81,14 @@ def _solve(request: Request, observers: Sequence[Observer], progress: Progress) 
 
 
 def _write(episode: Episode, directory: RunDirectory, recording: Path | None) -> dict[str, Any]:
-    from phframe.runtime.files import save, write_whole
+    from phframe.core.files import write_file
+    from phframe.runtime.files import save
     from phframe.runtime.summary import summarize
 
     summary = summarize(episode, recording)
     folder = directory.path or directory.make(episode.scene.name, episode.setup.planner)
     save(episode, folder / EPISODE)
-    write_whole(folder / SUMMARY, _as_json(summary) + "\n")
+    write_file(folder / SUMMARY, _as_json(summary) + "\n")
     return summary
 
 

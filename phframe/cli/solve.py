@@ -10,6 +10,7 @@ import typer
 
 from phframe.cli import completion
 from phframe.cli.options import parse_options
+from phframe.cli.paths import path
 from phframe.cli.request import Request
 
 
@@ -138,6 +139,7 @@ Out = Annotated[
     Path | None,
     typer.Option(
         "--out",
+        parser=path,
         metavar="DIR",
         help="Directory for episode.json, summary.json and recording.rrd; it must be new or empty.",
         show_default="a new one in runs/",
@@ -155,6 +157,7 @@ Video = Annotated[
     Path | None,
     typer.Option(
         "--video",
+        parser=path,
         metavar="FILE",
         help="Film the episode: FILE.mp4, or FILE.webp for a small moving picture, three times as quick. Replaced if it "
         "exists.",

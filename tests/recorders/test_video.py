@@ -217,16 +217,15 @@ def test_close_before_the_beginning_leaves_nothing(made: Recorded, tmp_path: Pat
     [
         ("video.avi", r"give a file that ends in \.mp4 or \.webp"),
         ("video", r"give a file that ends in"),
-        ("nowhere/video.mp4", "No such file or directory"),
         ("folder.mp4", "it is a directory"),
-        ("file/video.mp4", "Not a directory"),
+        ("file/video.mp4", "not a directory"),
     ],
 )
 def test_a_file_that_cannot_be_is_refused_at_once(name: str, why: str, tmp_path: Path) -> None:
     (tmp_path / "folder.mp4").mkdir()
     (tmp_path / "file").touch()
     before = set(tmp_path.iterdir())
-    with pytest.raises(InputError, match=rf"^cannot write the video .*{why}") as caught:
+    with pytest.raises(InputError, match=rf"^cannot write .*{why}") as caught:
         VideoRecorder(tmp_path / name)
     assert "\n" not in str(caught.value)
     assert set(tmp_path.iterdir()) == before
