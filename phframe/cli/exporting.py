@@ -109,7 +109,7 @@ def _check(wanted: Wanted, subject: Scene | Episode, form: Format) -> None:
         raise InputError(f"{form.name} is a folder of files: name it with --out DIR")
     if wanted.arm is not None and not form.with_arm:
         raise OptionError(f"--arm goes with mjcf and urdf-parts, not with {form.name}")
-    if wanted.options["arm"] and wanted.arm is None:
+    if wanted.options["arm"] and wanted.arm is None and not form.of_episode:
         raise OptionError("there are options of an arm, and no arm. Name it with --arm NAME.")
     if wanted.action is not None and not form.of_episode:
         raise OptionError(f"--action goes with json and csv, not with {form.name}")
@@ -119,7 +119,8 @@ def _trajectories(episode: Episode, wanted: Wanted, form: Format) -> str:
     from phframe.runtime.joint_trajectories import as_csv, as_json, joint_trajectories, refuse_no_joints
 
     refuse_no_joints(episode)
-    arm = create(Kind.ARM, episode.setup.arm, episode.setup.options.get("arm"))
+    options = {**episode.spec.options.get("arm", {}), **wanted.options["arm"]}
+    arm = create(Kind.ARM, wanted.arm or episode.spec.arm, options)
     found = joint_trajectories(episode, arm, wanted.action)
     return as_csv(found) if form.name == "csv" else as_json(episode, found)
 

@@ -13,7 +13,7 @@ from phframe.core.errors import ArmError, IncompatibleError
 from phframe.core.mesh import LinkMesh
 from phframe.core.options import Options
 from phframe.core.scene import BasePose, Scene, Shelf
-from phframe.core.value import FloatArray, Floats, Value
+from phframe.core.value import FloatArray, Floats, Value, short_repr
 
 if TYPE_CHECKING:
     from phframe.core.motion_planner import MotionPlanner
@@ -66,6 +66,8 @@ class ArmShape:
     max_opening: float
     min_opening: float = 0.0
     height: float = 0.06
+
+    __repr__ = short_repr
 
     def outlines(self, opening: float) -> tuple[Outline, ...]:
         """The outlines with the fingers ``opening`` (m) apart.

@@ -16,7 +16,7 @@ from phframe.core.pose import planar_pose
 from phframe.core.scene_check import problems_of
 from phframe.core.shape import Cylinder
 from phframe.core.state import Condition, State
-from phframe.core.value import FloatArray
+from phframe.core.value import FloatArray, short_repr
 
 BOARD_FRICTION = 0.25
 WALL_FRICTION = 0.2
@@ -106,6 +106,8 @@ class Scene:
     objects: tuple[SceneObject, ...]
     target: str
     base_poses: Mapping[str, BasePose] = field(default_factory=dict, hash=False)
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         problems = problems_of(self)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from phframe.core import Episode, NotInstalledError, Scene, Setup, State, Step
+from phframe.core import Episode, NotInstalledError, RunSpec, Scene, State, Step
 from phframe.core.files import check_writable
 from phframe.pushing import PushDecision
 from phframe.recorders.arm_bodies import bodies_of
@@ -49,7 +49,7 @@ class VideoRecorder(Observer):
         require_drawing()
         self._shooting: _Shooting | None = None
 
-    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+    def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """Build the picture and show the scene as it begins.
 
         Raises:

@@ -42,6 +42,7 @@ EXTENSIONS = [
         "phframe.arms.baxter:Baxter",
         "An arm of Rethink Robotics' Baxter: seven joints, electric gripper",
         extra="baxter",
+        uses=("ompl",),
     ),
     Extension(
         Kind.ARM,
@@ -49,6 +50,7 @@ EXTENSIONS = [
         "phframe.arms.articulated:DescribedArm",
         "Any arm, from a URDF and a short description of it",
         extra="baxter",
+        uses=("ompl",),
     ),
     Extension(
         Kind.TOPOLOGY,

@@ -39,6 +39,7 @@ class Extension:
         summary: One line for the listings.
         extra: The extra of its distribution that brings the libraries it needs, such as ``mujoco``; None: none.
         api_version: The ``API_VERSION`` it was written for.
+        uses: Further extras that it uses where they are installed, and whose versions belong to what it does.
 
     Raises:
         PluginError: If the name or the target is not of that form.
@@ -50,6 +51,7 @@ class Extension:
     summary: str
     extra: str | None = None
     api_version: int = API_VERSION
+    uses: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.kind not in list(Kind):

@@ -15,7 +15,7 @@ from phframe.core import Episode, InputError, Plan
 from phframe.core.files import write_file
 from phframe.core.paths import user_path
 
-FORMAT = 1
+FORMAT = 2
 """Of the files; a file of a newer one is refused."""
 
 _KINDS: dict[str, type[Plan] | type[Episode]] = {"plan": Plan, "episode": Episode}
@@ -25,11 +25,13 @@ def save(value: Plan | Episode, path: str | Path) -> Path:
     """Write a plan or an episode; what was there before stays until the new file is whole.
 
     Raises:
-        InputError: If the file cannot be written.
+        InputError: If the file cannot be written, or an episode was run with an object instead of a name.
     """
     kind = next((name for name, cls in _KINDS.items() if isinstance(value, cls)), None)
     if kind is None:
         raise InputError(f"only a Plan or an Episode can be saved, not {value!r}")
+    if isinstance(value, Episode):
+        value.spec.to_json()  # refuses what cannot be stored, which a serializer would wrap
     content = TypeAdapter(type(value)).dump_python(value, mode="json")
     return write_file(user_path(path), json.dumps({"phframe": FORMAT, "kind": kind, kind: content}))
 

@@ -8,11 +8,11 @@ from contextlib import closing
 import pytest
 
 from phframe.cli.progress import Progress
-from phframe.core import BasePose, Plan, Scene, Setup, Status
+from phframe.core import BasePose, Plan, RunSpec, Scene, Status
 from phframe.registry import Kind, create
 from phframe.runtime.observer import MountedArm
 
-SETUP = Setup("phia", "pymunk", "planar", "ripser", 0)
+SPEC = RunSpec()
 
 
 class Terminal(io.StringIO):
@@ -34,7 +34,7 @@ def arm() -> MountedArm:
 def _watch(progress: Progress, scene: Scene, arm: MountedArm, seconds: float) -> None:
     with closing(progress):
         progress.start()
-        progress.begin(scene, SETUP, arm)
+        progress.begin(scene, SPEC, arm)
         time.sleep(seconds)
         progress.planned(Plan(Status.FAILED, "no way"))
 

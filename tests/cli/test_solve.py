@@ -103,7 +103,7 @@ def test_options_reach_their_parts(invoke: Invoke) -> None:
     assert result.exit_code in (0, 1)
     episode = _episode(Path("here"))
     assert len(episode.scene.objects) == 4
-    assert {part: dict(values) for part, values in episode.setup.options.items() if values} == {
+    assert {part: dict(values) for part, values in episode.spec.options.items() if values} == {
         "planner": {"margin": 0.02},
         "arm": {"link_width": 0.1},
         "backend": {"step": 0.004},

@@ -29,7 +29,7 @@ def made() -> Recorded:
 
 def record(made: Recorded, path: Path) -> None:
     recorder, episode = RerunRecorder(path), made.episode
-    recorder.begin(episode.scene, episode.setup, made.arm)
+    recorder.begin(episode.scene, episode.spec, made.arm)
     recorder.planned(episode.plans[0])
     recorder.stepped(episode.steps[0], made.frames[0])
     recorder.planned(episode.plans[1])
