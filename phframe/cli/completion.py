@@ -40,6 +40,11 @@ def scenes_and_runs(incomplete: str) -> Offer:
     return [*_quietly(_runs, incomplete), *scenes(incomplete)]
 
 
+def runs(incomplete: str) -> Offer:
+    """The directories of runs."""
+    return _quietly(_runs, incomplete)
+
+
 def export_formats(incomplete: str) -> Offer:
     """What ``phframe export`` writes."""
     return _quietly(lambda: [(form.name, form.what) for form in FORMATS.values()], incomplete)

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from phframe.cli.episodes import read_episode
 from phframe.cli.export_formats import FORMATS, Format
 from phframe.cli.needs import require
 from phframe.cli.output import STANDARD_OUTPUT, Output
-from phframe.cli.run import EPISODE
 from phframe.core import ArmModel, BasePose, Episode, InputError, OptionError, Scene, UnknownNameError
 from phframe.core.paths import user_path
 from phframe.registry import Kind, create
@@ -72,19 +72,8 @@ def _find(wanted: Wanted) -> Scene | Episode:
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror}") from None
     if is_run or wanted.what.endswith(".json"):
-        return _episode(path / EPISODE if is_run else path)
+        return read_episode(path)
     return find_scene(wanted.what, wanted.options["scenes"])
-
-
-def _episode(path: Path) -> Episode:
-    from phframe.runtime.files import load
-
-    if path.name == EPISODE and path.parent.is_dir() and not path.exists():
-        raise InputError(f"the directory {path.parent} holds no {EPISODE}. Name one that 'phframe solve' made.")
-    loaded = load(path)
-    if not isinstance(loaded, Episode):
-        raise InputError(f"{path} is a plan, not an episode: nothing was carried out, so there is nothing to export")
-    return loaded
 
 
 def _form(wanted: Wanted, subject: Scene | Episode) -> Format:

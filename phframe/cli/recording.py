@@ -34,6 +34,8 @@ class RunFiles(Observer):
         Raises:
             InputError: If they cannot be written.
         """
+        if not self._directory.keep:
+            return
         path = self._directory.make(scene.name, spec.name_of("planner"))
         if self._recorder_type is not None:
             self._recorder = self._recorder_type(path / RECORDING)

@@ -118,6 +118,8 @@ def _write(episode: Episode, directory: RunDirectory, recording: Path | None) ->
     from phframe.runtime.summary import summarize
 
     summary = summarize(episode, recording)
+    if not directory.keep:
+        return summary
     folder = directory.path or directory.make(episode.scene.name, episode.spec.name_of("planner"))
     save(episode, folder / EPISODE)
     write_file(folder / SUMMARY, json.dumps(summary, allow_nan=False) + "\n")

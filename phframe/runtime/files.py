@@ -6,6 +6,7 @@ What a later phframe of the same format adds is passed over; what changes the me
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -32,8 +33,18 @@ def save(value: Plan | Episode, path: str | Path) -> Path:
         raise InputError(f"only a Plan or an Episode can be saved, not {value!r}")
     if isinstance(value, Episode):
         value.spec.to_json()  # refuses what cannot be stored, which a serializer would wrap
-    content = TypeAdapter(type(value)).dump_python(value, mode="json")
-    return write_file(user_path(path), json.dumps({"phframe": FORMAT, "kind": kind, kind: content}))
+    return write_file(user_path(path), json.dumps({"phframe": FORMAT, "kind": kind, kind: content_of(value)}))
+
+
+def content_of(value: Plan | Episode) -> Any:
+    """What a file holds of a plan or an episode; of large search trees that is a part."""
+    if isinstance(value, Episode):
+        return TypeAdapter(Episode).dump_python(replace(value, plans=tuple(map(_bounded, value.plans))), mode="json")
+    return TypeAdapter(Plan).dump_python(_bounded(value), mode="json")
+
+
+def _bounded(plan: Plan) -> Plan:
+    return plan if plan.tree is None else replace(plan, tree=plan.tree.summarised())
 
 
 def load(path: str | Path) -> Plan | Episode:

@@ -89,13 +89,14 @@ def prepare(spec: RunSpec) -> Prepared:
         given = {"plan_backend": plan_world.backend_options, "plan_arm": plan_world.arm_options}
         names = {"plan_backend": plan_world.backend, "plan_arm": plan_world.arm}
         stored |= {part: _differing(_kind(part), names[part], given[part], inherited[part]) for part in given}
-    scenes = {"scenes": spec.options["scenes"]} if "scenes" in spec.options else {}
+    if isinstance(spec.scene, str) and "scenes" in spec.options:
+        stored["scenes"] = _differing(Kind.SCENES, spec.scene.partition("/")[0], spec.options["scenes"], {})
     resolved = replace(
         spec,
         **{part: parts[part][0] for part in PARTS if not part.startswith("plan_")},
         plan_backend=plan_world.backend,
         plan_arm=plan_world.arm,
-        options={**stored, **scenes},
+        options=stored,
         noise=noise.model_dump(exclude_defaults=True),
     )
     believed = replace(plan_world, scene=noise.believed(scene, spec.seed))

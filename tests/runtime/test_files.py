@@ -64,19 +64,19 @@ def test_what_was_loaded_is_as_immutable_as_what_was_saved(tmp_path: Path) -> No
 BAD = {
     "empty": "",
     "no JSON": "phframe: 1",
-    "truncated": '{"phframe": 1, "kind": "plan", "plan": {"status": "clea',
+    "truncated": '{"phframe": 2, "kind": "plan", "plan": {"status": "clea',
     "a list": "[1, 2]",
     "null": "null",
-    "no kind": '{"phframe": 1}',
-    "another kind": '{"phframe": 1, "kind": "scene", "scene": {}}',
-    "a kind that is a list": '{"phframe": 1, "kind": [], "plan": {}}',
-    "no plan": '{"phframe": 1, "kind": "plan"}',
-    "a newer format": '{"phframe": 2, "kind": "plan", "plan": {"status": "cleared"}}',
-    "a format of text": '{"phframe": "1", "kind": "plan", "plan": {"status": "cleared"}}',
+    "no kind": '{"phframe": 2}',
+    "another kind": '{"phframe": 2, "kind": "scene", "scene": {}}',
+    "a kind that is a list": '{"phframe": 2, "kind": [], "plan": {}}',
+    "no plan": '{"phframe": 2, "kind": "plan"}',
+    "a newer format": '{"phframe": 3, "kind": "plan", "plan": {"status": "cleared"}}',
+    "a format of text": '{"phframe": "2", "kind": "plan", "plan": {"status": "cleared"}}',
     "no format": '{"kind": "plan", "plan": {"status": "cleared"}}',
-    "an unknown status": '{"phframe": 1, "kind": "plan", "plan": {"status": "done"}}',
+    "an unknown status": '{"phframe": 2, "kind": "plan", "plan": {"status": "done"}}',
     "deeply nested": "[" * 100_000,
-    "a huge number": '{"phframe": 1, "kind": "plan", "plan": {"status": "failed", "cost": {"total": 1%s}}}'
+    "a huge number": '{"phframe": 2, "kind": "plan", "plan": {"status": "failed", "cost": {"total": 1%s}}}'
     % ("0" * 400),
 }
 
@@ -93,7 +93,7 @@ def test_what_is_no_such_file_is_refused_by_name(what: str, tmp_path: Path) -> N
 
 def test_a_newer_format_is_named_with_the_one_that_is_read(tmp_path: Path) -> None:
     (tmp_path / "new.json").write_text(BAD["a newer format"])
-    with pytest.raises(InputError, match="format 2; this phframe reads format 1"):
+    with pytest.raises(InputError, match="format 3; this phframe reads format 2"):
         load(tmp_path / "new.json")
 
 
