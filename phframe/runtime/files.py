@@ -17,7 +17,7 @@ from phframe.core.files import write_file
 from phframe.core.paths import user_path
 
 FORMAT = 2
-"""Of the files; a file of a newer one is refused."""
+"""Of the files; a file of another one is refused."""
 
 _KINDS: dict[str, type[Plan] | type[Episode]] = {"plan": Plan, "episode": Episode}
 
@@ -38,12 +38,17 @@ def save(value: Plan | Episode, path: str | Path) -> Path:
 
 def content_of(value: Plan | Episode) -> Any:
     """What a file holds of a plan or an episode; of large search trees that is a part."""
-    if isinstance(value, Episode):
-        return TypeAdapter(Episode).dump_python(replace(value, plans=tuple(map(_bounded, value.plans))), mode="json")
-    return TypeAdapter(Plan).dump_python(_bounded(value), mode="json")
+    return TypeAdapter(type(value)).dump_python(_bounded(value), mode="json")
 
 
-def _bounded(plan: Plan) -> Plan:
+def _bounded(value: Plan | Episode) -> Plan | Episode:
+    """The same with search trees of no more nodes than a file holds: large ones are summarised."""
+    if isinstance(value, Plan):
+        return _bounded_plan(value)
+    return replace(value, plans=tuple(map(_bounded_plan, value.plans)))
+
+
+def _bounded_plan(plan: Plan) -> Plan:
     return plan if plan.tree is None else replace(plan, tree=plan.tree.summarised())
 
 

@@ -81,7 +81,8 @@ def test_the_key_tells_what_changes_the_result_and_nothing_else() -> None:
 @pytest.mark.parametrize("part", PARTS)
 @pytest.mark.parametrize("value", [OOA, OOA(OOA.options_type())], ids=["class", "object"])
 def test_what_holds_an_object_cannot_be_stored_and_says_what_to_do(part: str, value: object) -> None:
-    spec = RunSpec(**{part: value})
+    given: dict[str, Any] = {part: value}
+    spec = RunSpec(**given)
     assert spec.name_of(part) == "OOA"
     for use in (spec.to_json, spec.key):
         with pytest.raises(InputError, match=rf"the {part} is an object, OOA, .*{part}='./file.py:OOA'"):

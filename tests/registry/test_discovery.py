@@ -73,6 +73,7 @@ def test_of_two_plugins_with_one_name_neither_has_it(install: Install, found: Di
         ("@hookimpl\ndef phframe_extension():\n    return []", "PluginValidationError: unknown hook"),
         (offering("straight", "straight"), "two of the same name: planner 'straight'"),
         (offering("straight", api_version=3), "version 3 of phframe's interfaces; this phframe has version 2"),
+        (offering("straight", api_version=1), "version 2: docs/migration.md says what to change"),
         (offering("Straight Line"), "a name is lower-case words and digits joined by '-'"),
         (offering("straight").replace("MODULE:", "MODULE."), "is not 'module:Class'"),
         (offering("straight").replace("Kind('planner')", "'plan'"), "no kind of extension is called 'plan'"),

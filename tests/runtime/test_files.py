@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from phframe.core import Episode, InputError, Plan
+from phframe.pushing import PushDecision
 from phframe.runtime.files import load, save
 from phframe.runtime.solve import solve
 from phframe.runtime.summary import summarize
@@ -55,7 +56,7 @@ def test_what_was_loaded_is_as_immutable_as_what_was_saved(tmp_path: Path) -> No
     assert isinstance(back, Episode)
     for array in (back.final_state.poses, back.steps[0].action.path.poses, back.steps[0].trajectory.times):
         assert not array.flags.writeable
-    labels = back.plans[0].decisions[0].labels
+    labels = PushDecision.of(back.plans[0].decisions[0]).labels
     assert labels is not None
     assert not labels.flags.writeable
     hash(back.steps[0].action)
@@ -71,6 +72,7 @@ BAD = {
     "another kind": '{"phframe": 2, "kind": "scene", "scene": {}}',
     "a kind that is a list": '{"phframe": 2, "kind": [], "plan": {}}',
     "no plan": '{"phframe": 2, "kind": "plan"}',
+    "an older format": '{"phframe": 1, "kind": "plan", "plan": {"status": "cleared"}}',
     "a newer format": '{"phframe": 3, "kind": "plan", "plan": {"status": "cleared"}}',
     "a format of text": '{"phframe": "2", "kind": "plan", "plan": {"status": "cleared"}}',
     "no format": '{"kind": "plan", "plan": {"status": "cleared"}}',

@@ -103,7 +103,7 @@ def test_a_run_whose_plans_an_engine_of_joints_carries_out_is_kept_whole() -> No
 
 
 def test_an_episode_is_repeated_from_what_it_keeps(tmp_path: Path) -> None:
-    options = {"planner": {"margin": "0.02"}, "arm": {"link_width": 0.1}}
+    options: dict[str, dict[str, Any]] = {"planner": {"margin": "0.02"}, "arm": {"link_width": 0.1}}
     episode = phframe.solve("vieira/simple-08", planner="ooa", seed=2, options=options, noise="position=0.002")
     back = load(save(episode, tmp_path / "episode.json"))
     assert isinstance(back, Episode)
@@ -115,7 +115,8 @@ def test_an_episode_is_repeated_from_what_it_keeps(tmp_path: Path) -> None:
 def test_what_comes_from_a_file_runs_no_code(part: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("x.py").write_text("from pathlib import Path\nPath('ran').touch()\nraise SystemExit\n")
-    spec = replace(RunSpec(EASY), **{part: "x.py:Cls" if part != "scene" else "x.py:Cls/0"})
+    given: dict[str, Any] = {part: "x.py:Cls" if part != "scene" else "x.py:Cls/0"}
+    spec = replace(RunSpec(EASY), **given)
     with pytest.raises(
         InputError, match=r"'x\.py:Cls', a class in a file, and code is not run because a file names it"
     ):

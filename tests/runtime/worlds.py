@@ -130,9 +130,8 @@ def run(
     spec = RunSpec(seed=seed, loop=loop)
     with execution, PlanningWorld(planning or WorldSpec(execution.scene)) as plans_in:
         topology = create(Kind.TOPOLOGY, "ripser")
-        return run_episode(
-            planner or Noting(), topology, plans_in, execution, create(Kind.GOAL, "retrieve"), spec, observers
-        )
+        goal = create(Kind.GOAL, "retrieve")
+        return run_episode(planner or Noting(), topology, plans_in, execution, goal, spec, observers)
 
 
 def arm_file(folder: Path) -> str:
