@@ -72,8 +72,8 @@ def test_the_key_tells_what_changes_the_result_and_nothing_else() -> None:
     assert replace(spec, workers=8).key() == spec.key()
     assert replace(spec, loop=Loop(time_limit=300)).key() == spec.key()
     assert replace(spec, options={"arm": {}}) == spec
-    options = {"arm": {"a": 1, "b": 2.0}, "planner": {"c": True}}
-    turned = {"planner": {"c": True}, "arm": {"b": 2, "a": 1}}
+    options: dict[str, dict[str, Any]] = {"arm": {"a": 1, "b": 2.0}, "planner": {"c": True}}
+    turned: dict[str, dict[str, Any]] = {"planner": {"c": True}, "arm": {"b": 2, "a": 1}}
     assert RunSpec(options=options).key() == RunSpec(options=turned).key()
     assert RunSpec(options={"planner": {"c": 1}}).key() != RunSpec(options=turned).key()
 
