@@ -25,12 +25,14 @@ class Unreachable:
         why: The joint limit, the collision and with what, or the missing inverse.
         leg: Index of the path's leg on which it ends.
         bodies: What is collided with, if anything.
+        timed_out: Whether the clock ended the search, so that another run, on another machine, may find a motion.
     """
 
     where: float
     why: str
     leg: int | None = None
     bodies: tuple[str, ...] = ()
+    timed_out: bool = False
 
 
 OptionsT = TypeVar("OptionsT", bound=Options)
@@ -57,7 +59,9 @@ class MotionPlanner(ABC, Generic[OptionsT]):
         Args:
             path: Where the gripper is to go.
             state: Where the objects and the arm are.
-            attempts: How often to try anew; unlike seconds, it ends runs repeatably.
-            seconds: Time allowed.
+            attempts: How often to try anew, from random configurations: with the planner's options, what decides when
+                a search ends, so that the same inputs give the same bits.
+            seconds: Time after which a hopeless search ends all the same. Whoever is ended by it says so in
+                ``timed_out`` and never returns another motion than without it.
             rng: The only source of randomness.
         """
