@@ -187,7 +187,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
             valid=checker.is_free,
             planner=self.options.motion_planner,
             resolution=RESOLUTION,
-            budget=budget,
+            stop=budget.search(),
             rng=rng,
         )
         return self._unapproachable(checker, begin, end) if corners is None else corners
@@ -200,8 +200,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
             steps = max(2, math.ceil(float(np.abs(end - begin).max()) / RESOLUTION))
             line = begin + np.linspace(0.0, 1.0, steps)[:, None] * (end - begin)
             link, body = next((met[0] for q in line if (met := checker.collisions(q))), ("the arm", "something"))
-            searched = f"{self.options.motion_planner} found none in {self.options.search} iterations"
-            why, bodies = f"straight, {link} meets {body}, and {searched}", (body,)
+            why, bodies = f"straight, {link} meets {body}, and {self.options.motion_planner} finds none", (body,)
         return Unreachable(0.0, f"no collision-free joint path leads to where the path goes in: {why}", 0, bodies)
 
     def _paths(self, problem: _Problem, start: FloatArray | None) -> CartesianPathFollower:

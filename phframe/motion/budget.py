@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 
 class Budget:
@@ -12,24 +13,30 @@ class Budget:
     is, and must not be used.
 
     Args:
-        iterations: Of the sampling-based planner, in all.
+        iterations: Of the sampling-based planner, in all that it searches.
         seconds: From now on.
 
     Attributes:
-        iterations: Those that are left.
         timed_out: Whether anyone was stopped by the clock.
     """
 
     def __init__(self, iterations: int, seconds: float) -> None:
-        self.iterations, self.timed_out = iterations, False
-        self._end = time.monotonic() + seconds
+        self.timed_out = False
+        self._left, self._end = iterations, time.monotonic() + seconds
 
     def expired(self) -> bool:
         """Whether the time is up; whoever asks must stop if so."""
         self.timed_out = self.timed_out or time.monotonic() > self._end
         return self.timed_out
 
-    def spent(self) -> bool:
-        """Spend one iteration; True where none is left, or no time."""
-        self.iterations -= 1
-        return self.iterations < 0 or self.expired()
+    def search(self) -> Callable[[], bool]:
+        """Asked once in each of its iterations, ends a search after half of those left, so that another may follow."""
+        least = self._left // 2
+
+        def stop() -> bool:
+            if self._left <= least:
+                return True
+            self._left -= 1
+            return self.expired()
+
+        return stop

@@ -10,7 +10,6 @@ from types import ModuleType
 import numpy as np
 
 from phframe.core import ArmError, FloatArray, NotInstalledError, UnknownNameError
-from phframe.motion.budget import Budget
 from phframe.motion.edges import Edges
 from phframe.motion.path_shortcutting import shortened
 
@@ -32,15 +31,14 @@ def collision_free_path(
     valid: Callable[[FloatArray], bool],
     planner: str = DEFAULT,
     resolution: float,
-    budget: Budget,
+    stop: Callable[[], bool],
     rng: np.random.Generator,
 ) -> FloatArray | None:
     """Waypoints ``(k, dof)``, k at least 2, from a configuration to one of several others, or None.
 
     The straight line is tried first, to the nearest goals first (Euclidean norm); then OMPL searches, and what it finds
     is shortened. Straight edges between the waypoints are valid in steps in which no joint moves by more than the
-    resolution. The same inputs give the same bits, whatever ran before, unless the budget's clock ends it:
-    then the budget says so, and what was found must not be used.
+    resolution. The same inputs give the same bits, whatever ran before, if ``stop`` repeats too.
 
     Args:
         start: Joint values ``(dof,)``.
@@ -50,7 +48,7 @@ def collision_free_path(
         valid: Whether a configuration ``(dof,)`` is allowed; what it raises comes out of here as it is.
         planner: One of PLANNERS. RRTstar, InformedRRTstar, SORRTstar, BITstar and AORRTC use up all iterations.
         resolution: Most that a joint moves between two configurations that are looked at (rad or m), above 0.
-        budget: Iterations of the planner, and the time, after which it gives up.
+        stop: Asked in each iteration of the planner; True: it gives up.
         rng: The only source of randomness.
 
     Returns:
@@ -75,7 +73,7 @@ def collision_free_path(
             return np.array([start, goal])
     if not len(ends):
         return None
-    path = ompl.search(start, ends, (lower, upper), edges, planner, budget.spent, rng)
+    path = ompl.search(start, ends, (lower, upper), edges, planner, stop, rng)
     return None if path is None else shortened(path, edges, rng)
 
 

@@ -22,7 +22,7 @@ class ArticulatedOptions(Options):
         joint_acceleration: Of every joint (rad/s^2 or m/s^2).
         gripper_acceleration: Of the fingertip along a path (m/s^2).
         finger_acceleration: Of the opening (m/s^2).
-        search: Most iterations of the motion planner, in all that it searches for one path.
+        search: Most iterations of the motion planner for one action; each of its searches has half of what is left.
         wall_margin: Distance kept between the arm and the shelf (m).
         object_margin: Distance kept between the arm and objects that it must not touch (m).
         cartesian_spacing: Between the poses of a path for which joints are found and checked for collisions (m).

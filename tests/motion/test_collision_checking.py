@@ -149,7 +149,7 @@ def test_what_was_asked_before_changes_no_answer(questions: list[tuple[int, int,
 def test_verdicts_differ_by_context() -> None:
     """What the test above would not notice otherwise."""
     verdicts = {tuple(fresh_verdicts(number)) for number in range(len(CONTEXTS))}
-    assert len(verdicts) > 6
+    assert len(verdicts) == 6
 
 
 def test_a_context_cannot_be_changed() -> None:

@@ -46,7 +46,7 @@ def solve(planner: str = DEFAULT, *, seed: int = 0, dof: int = 3, **changes: Any
     given: dict[str, Any] = {
         "start": start, "goals": goal[None], "lower": lower, "upper": upper, "valid": walls(*gaps), "planner": planner,
         "resolution": RESOLUTION, "rng": np.random.default_rng(seed),
-        "budget": Budget(changes.pop("iterations", 500 if "star" in planner else 3000), changes.pop("seconds", math.inf)),
+        "stop": Budget(2 * changes.pop("iterations", 500 if "star" in planner else 3000), math.inf).search(),
     }  # fmt: skip
     return collision_free_path(**{**given, **changes})
 
@@ -134,7 +134,7 @@ def test_time_ends_it_too_and_the_budget_says_so(planner: str, monkeypatch: pyte
     ticks = iter(range(10**9))
     monkeypatch.setattr("phframe.motion.budget.time.monotonic", lambda: float(next(ticks)))
     budget = Budget(10**9, 100.0)
-    assert solve(planner, valid=walls((5.0, 6.0)), budget=budget) is None
+    assert solve(planner, valid=walls((5.0, 6.0)), stop=budget.search()) is None
     assert budget.timed_out
     assert 100 <= next(ticks) < 200
 
@@ -193,7 +193,7 @@ def test_ctrl_c_stops_it(planner: str) -> None:
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.2)
         with pytest.raises(KeyboardInterrupt):
-            solve(planner, valid=lambda q: abs(float(q[0]) - 1.0) > 0.1, iterations=10**9, seconds=20.0)
+            solve(planner, valid=lambda q: abs(float(q[0]) - 1.0) > 0.1, iterations=10**9)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
@@ -266,7 +266,7 @@ def test_bad_input_is_answered_in_one_line(changes: dict[str, Any], what: str) -
 def ask(**changes: Any) -> None:
     given = {
         "start": np.zeros(3), "goals": np.zeros((1, 3)), "lower": -np.ones(3), "upper": np.ones(3), "valid": bool,
-        "resolution": 0.1, "budget": Budget(10, math.inf), "rng": np.random.default_rng(0),
+        "resolution": 0.1, "stop": bool, "rng": np.random.default_rng(0),
     }  # fmt: skip
     collision_free_path(**{**given, **changes})
 

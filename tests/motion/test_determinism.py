@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -126,15 +127,27 @@ def test_the_search_was_needed(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(asked) > 20
 
 
-def test_a_budget_is_spent_by_iterations_and_its_clock_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_search_has_half_of_the_iterations_that_are_left() -> None:
+    budget = Budget(10, math.inf)
+    counts = []
+    for _ in range(4):
+        stop = budget.search()
+        counts.append(sum(1 for _ in iter(stop, True)))
+        assert stop(), "it is over"
+    assert counts == [5, 3, 1, 1]
+    assert budget.search()()
+    assert not budget.timed_out
+
+
+def test_a_clock_that_stopped_anyone_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0.0]
     monkeypatch.setattr("phframe.motion.budget.time.monotonic", lambda: now[0])
-    budget = Budget(2, 10.0)
-    assert [budget.spent() for _ in range(4)] == [False, False, True, True]
-    assert not budget.timed_out
+    budget = Budget(100, 10.0)
+    stop = budget.search()
+    assert not stop()
     now[0] = 10.1
     assert not budget.timed_out, "nobody was stopped by it yet"
-    assert budget.expired()
+    assert stop()
     now[0] = 0.0
-    assert budget.expired()
     assert budget.timed_out
+    assert budget.expired()
