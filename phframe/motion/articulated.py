@@ -16,7 +16,6 @@ from phframe.core import (
     GripperPath,
     JointTrajectory,
     MotionPlanner,
-    PhaseRule,
     Scene,
     State,
     Unreachable,
@@ -57,9 +56,6 @@ class _Problem:
     state: State
     begin: FloatArray
     opening: float
-
-    def rule(self, leg: int) -> PhaseRule:
-        return self.path.rules[self.path.phases[leg]]
 
 
 class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
@@ -168,7 +164,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
 
     def _joined(self, problem: _Problem, approach: FloatArray, found: JointPath) -> JointTrajectory:
         """The motion along corners ``(k, dof)`` and then a joint path."""
-        first = problem.rule(int(found.legs[0])).opening
+        first = problem.path.rule(int(found.legs[0])).opening
         segments = [*straight_segments(approach, problem.opening, first), *leg_segments(found, problem.path, first)]
         return self._time_parametrisation.trajectory(segments)
 
@@ -177,7 +173,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
     ) -> FloatArray | Unreachable:
         """Corners ``(k, dof)`` of a joint path to where another begins, collision-free but for what touches at its start."""
         begin, end = problem.begin, found.joints[0]
-        opening = max(problem.opening, problem.rule(int(found.legs[0])).opening)
+        opening = max(problem.opening, problem.path.rule(int(found.legs[0])).opening)
         checker = self._collisions.checker(CollisionContext(problem.state, opening, start=begin))
         corners = collision_free_path(
             begin,
@@ -211,8 +207,8 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
             return self._follower(CollisionContext(problem.state, opening, allowed, start))
 
         def follower_of(leg: int) -> CartesianFollower:
-            rule = problem.rule(leg)
-            return follower(rule.opening, allowed_objects(rule.contacts, self.scene))
+            rule = problem.path.rule(leg)
+            return follower(rule.opening, allowed_objects(rule.contacts, self.scene, problem.path.manipuland))
 
         spacing = self.options.cartesian_spacing
         return CartesianPathFollower(problem.path, waypoints(problem.path, spacing), spacing, follower_of)

@@ -34,12 +34,12 @@ class CollisionContext:
         return np.column_stack([self.state.positions, radii, tops])[forbidden]
 
 
-def allowed_objects(contacts: Contacts, scene: Scene) -> frozenset[str]:
-    """Ids of the objects that may be touched where a path's rule says so."""
+def allowed_objects(contacts: Contacts, scene: Scene, manipuland: str | None) -> frozenset[str]:
+    """Ids of the objects that may be touched where a path's rule says so; the manipuland is what the path handles."""
     match contacts:
         case Contacts.OBJECTS:
             return frozenset(scene.ids)
-        case Contacts.TARGET:
-            return frozenset({scene.target})
+        case Contacts.MANIPULAND if manipuland is not None:
+            return frozenset({manipuland})
         case _:
             return frozenset()

@@ -48,7 +48,7 @@ def leg_segments(joint_path: JointPath, path: GripperPath, opening: float) -> It
     begin = 0
     for leg in dict.fromkeys(joint_path.legs.tolist()):
         end = int(np.flatnonzero(joint_path.legs == leg)[-1])
-        rule = path.rules[path.phases[leg]]
+        rule = path.rule(leg)
         rows = slice(begin, end + 1)
         openings = np.linspace(opening, rule.opening, end + 1 - begin)
         if end > begin:

@@ -62,6 +62,12 @@ EXTENSIONS = [
         "phframe.topology.single_linkage:SingleLinkage",
         "SciPy's single linkage: the same diagrams, quickest for hundreds of points",
     ),
+    Extension(
+        Kind.GOAL,
+        "retrieve",
+        "phframe.pushing.retrieve:Retrieve",
+        "The target out of the shelf and in the hand: the paper's",
+    ),
     Extension(Kind.SCENES, "vieira", "phframe.scenes.suites:Vieira", "The scenes of Vieira et al. 2022"),
     Extension(Kind.SCENES, "papallas", "phframe.scenes.suites:Papallas", "The scenes of Papallas and Dogar 2020"),
     Extension(

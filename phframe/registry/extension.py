@@ -8,7 +8,7 @@ from enum import StrEnum
 
 from phframe.core.errors import PluginError
 
-API_VERSION = 1
+API_VERSION = 2
 """Version of the interfaces of ``phframe.core`` that plugins are written against."""
 
 _NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
@@ -23,6 +23,7 @@ class Kind(StrEnum):
     ARM = "arm"
     TOPOLOGY = "topology"
     SCENES = "scenes"
+    GOAL = "goal"
     RECORDER = "recorder"
     COMMAND = "command"
 

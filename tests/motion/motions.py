@@ -97,7 +97,7 @@ def path_of(arm: ArmModel[Any], legs: Sequence[tuple[Phase, Contacts, float, Flo
         for phase, contacts, fraction, _ in legs
     }
     poses = np.vstack([begin, *(end for *_, end in legs)])
-    return GripperPath(poses, tuple(phase for phase, *_ in legs), rules)
+    return GripperPath(poses, tuple(phase for phase, *_ in legs), rules, manipuland="target")
 
 
 def insertion(arm: ArmModel[Any], x: float, y: float, yaw: float = 0.0) -> GripperPath:
@@ -121,9 +121,9 @@ def grasp(arm: ArmModel[Any], x: float, y: float) -> GripperPath:
     """In with open fingers, close, and out."""
     at = np.array([x, y, 0.0])
     legs = [
-        (Phase.REACH, Contacts.TARGET, 0.9, at),
-        (Phase.GRASP, Contacts.TARGET, 0.1, at),
-        (Phase.WITHDRAW, Contacts.TARGET, 0.1, np.array([-0.12, y, 0.0])),
+        (Phase.REACH, Contacts.MANIPULAND, 0.9, at),
+        (Phase.GRASP, Contacts.MANIPULAND, 0.1, at),
+        (Phase.WITHDRAW, Contacts.MANIPULAND, 0.1, np.array([-0.12, y, 0.0])),
     ]
     return path_of(arm, legs, np.array([BEFORE, y, 0.0]))
 

@@ -159,7 +159,7 @@ def check_nothing_is_hit(motion: JointTrajectory, planner: MotionPlanner[Any], p
     for time in np.append(np.arange(0.0, motion.duration, JUDGED), motion.duration):
         phase = motion.gripper.phase_at(float(time))
         rule = path.rules.get(phase)
-        may = {Contacts.OBJECTS: set(scene.ids), Contacts.TARGET: {scene.target}}.get(
+        may = {Contacts.OBJECTS: set(scene.ids), Contacts.MANIPULAND: {path.manipuland}}.get(
             rule.contacts if rule else Contacts.NONE, set()
         )
         found = judge.touching(motion.sample([time])[0][0], motion.gripper.at(float(time))[1])

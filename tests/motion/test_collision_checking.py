@@ -159,9 +159,10 @@ def test_a_context_cannot_be_changed() -> None:
 
 
 def test_rules_allow_contacts_by_name() -> None:
-    assert allowed_objects(Contacts.NONE, SCENE) == set()
-    assert allowed_objects(Contacts.TARGET, SCENE) == {"target"}
-    assert allowed_objects(Contacts.OBJECTS, SCENE) == {"near", "target"}
+    assert allowed_objects(Contacts.NONE, SCENE, "near") == set()
+    assert allowed_objects(Contacts.MANIPULAND, SCENE, "near") == {"near"}
+    assert allowed_objects(Contacts.MANIPULAND, SCENE, None) == set()
+    assert allowed_objects(Contacts.OBJECTS, SCENE, None) == {"near", "target"}
 
 
 def test_obstacles_are_what_must_not_be_touched() -> None:

@@ -10,7 +10,18 @@ from phframe.backends.articulated.commands import accepted, commands
 from phframe.backends.articulated.contacts import Touches
 from phframe.backends.articulated.force_limiter import Limiter
 from phframe.backends.articulated.world import JointWorld
-from phframe.core import FORCE_WINDOW, Contact, JointTrajectory, Motion, Settle, Stop, Trajectory, Watch
+from phframe.core import (
+    FORCE_WINDOW,
+    Contact,
+    JointTrajectory,
+    Motion,
+    Settle,
+    Stop,
+    StopCause,
+    StopReason,
+    Trajectory,
+    Watch,
+)
 
 SURVEY = 10
 """Control steps between looks at what has left the board."""
@@ -50,7 +61,7 @@ class Drive:
         self._tick, self._pressed, self._next_look = 0, 0, 0.0
         self._force = self._lag = 0.0
         self._stalled, self._settled = False, True
-        self._cause: str | None = None
+        self._cause: StopReason | None = None
 
     def run(self, settle: Settle | None) -> Motion:
         """Follow the trajectory, then wait for rest.
@@ -128,13 +139,13 @@ class Drive:
         self._lag = lag
         self._stalled = self._stalled or lag > self._stall_lag
 
-    def _reason(self, stop: Stop) -> str | None:
+    def _reason(self, stop: Stop) -> StopReason | None:
         """Why to end early now, if there is a reason."""
         for _, _, name, wall in self._touches.news():
             if (wall and stop.wall) or name in stop.bodies:
-                return f"contact with {'the ' if wall else ''}{name}"
+                return StopReason(StopCause.WALL if wall else StopCause.CONTACT, name)
         if stop.force is not None and self._force > stop.force:
-            return f"a force of {self._force:.0f} N"
+            return StopReason(StopCause.FORCE, force=self._force)
         return None
 
     def _yield(self) -> None:

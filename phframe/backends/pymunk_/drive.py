@@ -13,7 +13,19 @@ from phframe.backends.pymunk_.gripper import between_fingers, gripped, hold, pla
 from phframe.backends.pymunk_.report import motion_of
 from phframe.backends.pymunk_.state import is_calm, read_state, refuse_divergence, spill
 from phframe.backends.pymunk_.world import ShelfSpace, note_contact, overlap
-from phframe.core import FORCE_WINDOW, FloatArray, GripperTrajectory, InputError, Motion, Phase, Settle, Stop, Watch
+from phframe.core import (
+    FORCE_WINDOW,
+    FloatArray,
+    GripperTrajectory,
+    InputError,
+    Motion,
+    Phase,
+    Settle,
+    Stop,
+    StopCause,
+    StopReason,
+    Watch,
+)
 
 STRETCH = 30
 """Steps between looks at what has left the board and whether all is still again: 1/8 s at the default step."""
@@ -61,7 +73,7 @@ class Drive:
         self._full_impulse = trajectory.force_limit * step * SATURATED
         self.lag = self.force = 0.0
         self.stalled, self.settled = False, True
-        self.cause: str | None = None
+        self.cause: StopReason | None = None
 
     def run(self, settle: Settle | None) -> Motion:
         """Follow the trajectory, then wait for rest."""
@@ -202,7 +214,7 @@ class Drive:
         if mean >= self._full_impulse:
             self._note_lag()
         if self._stop is not None and self._stop.force is not None and mean / self._step > self._stop.force:
-            self.cause = self.cause or f"a force of {mean / self._step:.0f} N"
+            self.cause = self.cause or StopReason(StopCause.FORCE, force=mean / self._step)
 
     def _note_lag(self) -> None:
         """The drive gives all it has: see how far the arm is behind, and whether that is a stall."""
@@ -262,9 +274,9 @@ def _refuse_jump(world: ShelfSpace, pose: FloatArray) -> None:
         raise InputError(f"the trajectory begins {distance:.3f} m and {turn:.3f} rad from where the arm is")
 
 
-def _touch(stop: Stop, world: ShelfSpace) -> str | None:
+def _touch(stop: Stop, world: ShelfSpace) -> StopReason | None:
     """What the arm touches that ends the motion, if anything does."""
     for _, _, name, wall in world.touched:
         if (wall and stop.wall) or name in stop.bodies:
-            return f"contact with {'the ' if wall else ''}{name}"
+            return StopReason(StopCause.WALL if wall else StopCause.CONTACT, name)
     return None

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Protocol
 
 from phframe.backends.pymunk_.world import ShelfSpace
-from phframe.core import Contact, GripperTrajectory, Motion
+from phframe.core import Contact, GripperTrajectory, Motion, StopReason
 
 
 class Run(Protocol):
@@ -16,7 +16,7 @@ class Run(Protocol):
     lag: float
     stalled: bool
     settled: bool
-    cause: str | None
+    cause: StopReason | None
 
 
 def motion_of(run: Run, world: ShelfSpace, trajectory: GripperTrajectory, step: float, followed: int) -> Motion:

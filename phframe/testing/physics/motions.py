@@ -153,7 +153,9 @@ def stops_at_the_first_contact(subject: PhysicsUnderTest) -> Faults:
         trajectory = stand.trajectory(stand.start, drive_in(0.4))
         made = stand.physics.simulate(stand.start, trajectory, stop=Stop(bodies=frozenset({"near"})), settle=None)
         motion, arm = made.motion, made.state.arm
-        yield from expect(motion.stopped and "near" in motion.stopped, "stopped, with 'near' as the cause", str(motion))
+        yield from expect(
+            motion.stopped and motion.stopped.body == "near", "stopped, with 'near' as the cause", str(motion)
+        )
         yield from expect(not motion.complete, "a motion that was not completed", str(motion))
         yield from expect_close(np.nan if arm is None else arm.gripper[0], 0.12, 0.015, "x of the fingertip (m)")
         left = trajectory.duration - motion.followed
