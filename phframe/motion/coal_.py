@@ -132,12 +132,10 @@ class CollisionChecker:
         self.context, self._model = context, model
         self._geometry, self._requests = model.placed(context.state), model.requests(context.allowed)
         self._values, self._rows = model.values(context.opening), model.rows
-        if context.start is not None and (touching := self._touching(context.start)):
-            self._tolerate(touching)
-        # Broad phase by a tree of boxes: only pairs whose boxes overlap are looked at closely.
-        self._manager = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(
-            model.model, self._geometry, self._requests
-        )
+        self._manager = self._broad_phase()
+        if context.start is not None and not self.is_free(context.start):
+            self._tolerate(self._touching(context.start))
+            self._manager = self._broad_phase()
 
     def is_free(self, q: FloatArray) -> bool:
         """Whether the robot is collision-free at joint values ``(dof,)``."""
@@ -150,6 +148,11 @@ class CollisionChecker:
         bodies, pairs = self._model.bodies, self._geometry.collisionPairs
         touching = (pairs[index] for index in self._touching(q))
         return tuple((bodies[pair.first], bodies[pair.second]) for pair in touching)
+
+    def _broad_phase(self) -> Any:
+        """A tree of boxes: only pairs whose boxes overlap are looked at closely."""
+        manager = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager
+        return manager(self._model.model, self._geometry, self._requests)
 
     def _touching(self, q: FloatArray) -> list[int]:
         """Indices of all pairs that collide."""
