@@ -39,7 +39,7 @@ RULES = {
     Phase.GRASP: PhaseRule(0.2, 0.08, Contacts.MANIPULAND),
 }
 POSES = np.array([[-0.05, 0.2, 0.1], [0.3, 0.25, 0.1], [0.3, 0.4, -0.2], [0.3, 0.4, -0.2]])
-PATH = GripperPath(POSES, (Phase.INSERT, Phase.SWEEP, Phase.GRASP), RULES, manipuland="target")
+PATH = GripperPath(POSES, (Phase.INSERT, Phase.SWEEP, Phase.GRASP), RULES, "target")
 
 
 def lifted(path: GripperPath, state: State, base_pose: BasePose) -> JointTrajectory | Unreachable:
