@@ -124,7 +124,7 @@ class ArticulatedArm(ArmModel[OptionsT]):
         return BasePose(float(x), shelf.width / 2.0 + float(y), -stand.at[2], 0.0 - stand.yaw)
 
     def motion_planner(self, scene: Scene, base_pose: BasePose) -> MotionPlanner[Any]:
-        """Follows paths in the shelf, and plans free ways with OMPL.
+        """Follows paths in the shelf, and plans collision-free joint paths with OMPL.
 
         Raises:
             UnknownNameError: If there is no such planner.
@@ -146,7 +146,9 @@ class ArticulatedArm(ArmModel[OptionsT]):
             remedy = f'pip install "phframe[baxter]" (wheels for {wheels})'
             raise NotInstalledError(f"motion planning for {type(self).__name__}", library, remedy) from error
 
-        return ArticulatedMotionPlanner(scene, self, base_pose, self.options)
+        return ArticulatedMotionPlanner(
+            scene, self, base_pose, self.options, self.description, self.robot, self.kinematics
+        )
 
     def fraction_served(self, shelf: Shelf, base_pose: BasePose) -> float:
         """By descent from the pose beside alone."""

@@ -215,13 +215,13 @@ def test_the_example_solves_a_scene_by_its_joints() -> None:
 def test_closed_fingers_may_touch_one_another() -> None:
     pytest.importorskip("ompl")
     from phframe.motion.coal_ import CollisionModel
+    from phframe.motion.collision_checking import CollisionContext
 
     example = DescribedArm(DescribedArmOptions())
-    names, fingers = example.description.joints, example.description.fingers
+    description = example.description.model_copy(update={"overlapping": ()})
     scene = Scene("shelf", SHELF, (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
-    model = CollisionModel(example.urdf(), names, fingers, (), scene, example.default_base_pose(SHELF))
-    model.place(scene.initial_state())
-    model.open(np.zeros(2))
-    assert model.collisions(example.home) == ()
+    model = CollisionModel(example, description, scene, example.default_base_pose(SHELF), 0.0, 0.0)
+    checker = model.checker(CollisionContext(scene.initial_state(), opening=0.0))
+    assert checker.collisions(example.home) == ()
     folded = np.array([0.0, 0.5, 2.6, 0.0, 0.0, 0.0])
-    assert ("base", "forearm") in model.collisions(folded), "whatever else meets does collide"
+    assert ("base", "forearm") in checker.collisions(folded), "whatever else meets does collide"

@@ -1,4 +1,4 @@
-"""An independent judge of collisions: MuJoCo, with the covers of the arm, the shelf and the objects.
+"""An independent judge of collisions: MuJoCo, with the collision geometry of the arm, the shelf and the objects.
 
 No margins: with them, MuJoCo 4 finds overlaps of boxes and cylinders where there are none, and misses others.
 """
