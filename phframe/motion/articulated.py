@@ -74,7 +74,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         skin = Skin(self._kinematics, arm.robot, self._described.joints, arm.tip_link, base_pose, scene.shelf.depth)
         self._posture = Posture(self._kinematics, skin, self._described.behind, scene.shelf)
         self._follower = Follower(self._kinematics, self._posture)
-        names, apart = self._described.joints, self._described.overlapping
+        names, apart = self._described.joints, self._described.allowed_collisions
         self._collisions = CollisionModel(arm.urdf(), names, self._described.fingers, apart, scene, base_pose)
         self._tracker = Tracker(self._follower, self._collisions, base_pose, arm, scene)
         self._scheduler = Scheduler(arm, base_pose, options)
@@ -136,7 +136,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
     ) -> JointTrajectory | Unreachable:
         """The way to where a route of the path begins, and the route."""
         search = RouteSearch(router, self._tracker, self._follower, self._kinematics, until)
-        seeds = [*(np.array(posture) for posture in self._described.postures), begin, self.arm.home]
+        seeds = [*(np.array(posture) for posture in self._described.seed_configurations), begin, self.arm.home]
         approached = True
         for route in search.routes(seeds, attempts, rng):
             first = path.rule(int(route.legs[0])).opening

@@ -13,6 +13,10 @@ import pinocchio
 
 from phframe.core import BasePose, FloatArray, Scene, State
 from phframe.geometry.slabs import slabs
+from phframe.urdf.convex_hull import ConvexHull
+from phframe.urdf.reader import read_robot
+from phframe.urdf.solids import rotation
+from phframe.urdf.writer import robot_urdf
 
 WALL_MARGIN = 0.0015
 """Kept between the robot and the shelf (m)."""
@@ -46,7 +50,7 @@ class CollisionModel:
         base_pose: BasePose,
     ) -> None:
         whole = pinocchio.buildModelFromXML(urdf)
-        covers = pinocchio.buildGeomFromUrdfString(whole, urdf, pinocchio.GeometryType.COLLISION)
+        covers = _collision_geometry(whole, urdf)
         moving = {*joints, *fingers}
         others = [number for number, name in enumerate(whole.names) if number and name not in moving]
         self._model, self._geometry = pinocchio.buildReducedModel(whole, covers, others, pinocchio.neutral(whole))
@@ -174,6 +178,26 @@ def placement(base_pose: BasePose) -> Any:
     """Where a robot's base stands in the shelf frame."""
     x, y, z, scalar, i, j, k = base_pose.pose.tolist()
     return pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
+
+
+def _collision_geometry(model: Any, urdf: str) -> Any:
+    """Primitives as Pinocchio reads them, and convex hulls."""
+    robot = read_robot(urdf)
+    text = robot_urdf(robot.without_hulls())
+    geometry = pinocchio.buildGeomFromUrdfString(model, text, pinocchio.GeometryType.COLLISION)
+    for number, (link, hull) in enumerate(robot.hulls):
+        frame = model.getFrameId(link)
+        at = model.frames[frame].placement * pinocchio.SE3(rotation(hull.rpy), np.array(hull.at))
+        joint = model.frames[frame].parentJoint
+        geometry.addGeometryObject(pinocchio.GeometryObject(f"hull/{number}", joint, frame, at, _convex(hull)))
+    return geometry
+
+
+def _convex(hull: ConvexHull) -> Any:
+    points, triangles = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+    points.extend(list(hull.vertices))
+    triangles.extend([coal.Triangle(a, b, c) for a, b, c in hull.triangles.tolist()])
+    return coal.Convex(points, triangles)
 
 
 def _link_of(model: Any, item: Any) -> str:

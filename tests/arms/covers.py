@@ -29,7 +29,7 @@ class Covers:
         self._rows = np.array(rows)
         self._points = {
             self._model.getFrameId(link): np.vstack([surface(solid) for solid in solids])
-            for link, solids in read_robot(arm.urdf()).covers.items()
+            for link, solids in read_robot(arm.urdf()).collision_geometry.items()
             if solids and link in links
         }
         self._arm = arm

@@ -24,8 +24,9 @@ from phframe.core import (
     compose,
     planar_pose,
 )
-from phframe.urdf.model import Connection, Link, robot_urdf
+from phframe.urdf.model import Link, Mimic, Robot, RobotJoint
 from phframe.urdf.solids import Solid, of_solids
+from phframe.urdf.writer import robot_urdf
 
 pytestmark = pytest.mark.needs_baxter
 
@@ -50,11 +51,13 @@ DESCRIPTION: dict[str, Any] = {
 def urdf(kind: str = "prismatic") -> str:
     """The robot: links 0.35, 0.3 and 0.1 m long, and a palm with two fingers that slide."""
     names = ("base", "tower", "upper", "fore", "hand", "knuckle", "palm", "left_finger", "right_finger")
-    links = [Link(name, of_solids(1.0, [BOX]), (BOX,) if name in ("upper", "fore") else ()) for name in names[:6]]
+    links = [
+        Link.of_solids(name, of_solids(1.0, [BOX]), (BOX,) if name in ("upper", "fore") else ()) for name in names[:6]
+    ]
     palm = (Solid("box", (0.04, 0.14, 0.05), (0.04, 0.0, 0.0)), Solid("cylinder", (0.03, 0.04), (0.0, 0.0, 0.0)))
-    links.append(Link("palm", of_solids(0.5, palm), palm))
+    links.append(Link.of_solids("palm", of_solids(0.5, palm), palm))
     finger = Solid("box", (0.08, 0.02, 0.03), (0.04, 0.0, 0.0))
-    links += [Link(name, of_solids(0.05, [finger]), (finger,)) for name in names[7:]]
+    links += [Link.of_solids(name, of_solids(0.05, [finger]), (finger,)) for name in names[7:]]
     turn = {"velocity": 2.0, "effort": 40.0}
     z, y, x = (0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)
     chain = [
@@ -65,12 +68,13 @@ def urdf(kind: str = "prismatic") -> str:
         ("hand", "knuckle", (0.05, 0.0, 0.0), Joint("tilt", -1.0, 1.0, **turn), "revolute", y),
         ("knuckle", "palm", (0.05, 0.0, 0.0), Joint("roll", -3.0, 3.0, **turn), "revolute", x),
     ]
-    connections = [Connection(a, b, at, joint=j, kind=k, axis=axis) for a, b, at, j, k, axis in chain]  # type: ignore[arg-type]
+    joints = [RobotJoint(a, b, at, joint=j, kind=k, axis=axis) for a, b, at, j, k, axis in chain]  # type: ignore[arg-type]
     for name, sign, follows in (("left", 1.0, ""), ("right", -1.0, "left_slide")):
         joint = Joint(f"{name}_slide", 0.0, 0.03, velocity=0.1, effort=20.0)
         at, axis = (0.06, sign * 0.015, 0.0), (0.0, sign, 0.0)
-        connections.append(Connection("palm", f"{name}_finger", at, (0.0, 0.0, 0.0), joint, kind, axis, follows))  # type: ignore[arg-type]
-    return robot_urdf("lift_arm", links, connections)
+        mimic = Mimic(follows) if follows else None
+        joints.append(RobotJoint("palm", f"{name}_finger", at, (0.0, 0.0, 0.0), joint, kind, axis, mimic))  # type: ignore[arg-type]
+    return robot_urdf(Robot.of("lift_arm", links, joints))
 
 
 def arm(folder: Path, text: str | None = None, **changes: Any) -> DescribedArm:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from phframe.arms.reach import YAWS, Reachability
 from phframe.core import Scene
+from phframe.motion.reachability import YAWS, Reachability
 
 SIZE, DOTS = (6.4, 6.4), 120
 """Of the picture: inches, and dots per inch."""
