@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from functools import lru_cache
+from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
 from typing import ClassVar
@@ -114,15 +115,12 @@ def _numbers(line: bytes, content: bytes) -> FloatArray:
 
 def _by_trimesh(content: bytes, suffix: str) -> FloatArray:
     """COLLADA and whatever else trimesh reads; it turns and scales what its file says is turned and scaled."""
-    try:
-        import collada  # noqa: F401
-        import trimesh
-    except ModuleNotFoundError as error:
-        library = error.name or "trimesh"
+    missing = next((library for library in ("trimesh", "collada") if find_spec(library) is None), None)
+    if missing is not None:
         remedy = 'pip install "phframe[meshes]", or give the collision geometry as STL or OBJ'
-        raise NotInstalledError(
-            f"a collision mesh of the type {suffix or 'without a suffix'}", library, remedy
-        ) from None
+        raise NotInstalledError(f"a collision mesh of the type {suffix or 'without a suffix'}", missing, remedy)
+    import trimesh
+
     try:
         return np.asarray(trimesh.load_scene(BytesIO(content), file_type=suffix[1:]).to_geometry().vertices)
     except Exception as error:  # noqa: BLE001 - its readers raise anything, of XML, of zip files, of missing keys

@@ -26,8 +26,9 @@ SAME = 1e-6
 def driven_robot(description: ArmDescription, robot: Robot) -> Robot:
     """The robot of a description, with the link ``fingertip``.
 
-    Joints that are not driven and follow none that is stay at 0, or at the limit nearest to it: they are fixed. Fingers
-    are closed at their lower limits, and the right one follows the left one.
+    Joints that are not driven and follow none that is stay at 0, or at the limit nearest to it: they are fixed. Driven
+    ones that turn without end get limits of half a turn either way. Fingers are closed at their lower limits, and the
+    right one follows the left one.
 
     Raises:
         ArmError: If description and URDF do not agree, or the fingers do not slide apart evenly.
@@ -39,9 +40,10 @@ def driven_robot(description: ArmDescription, robot: Robot) -> Robot:
     flips = {finger.name: -1.0 for finger in (left, right) if finger.axis != robot.joint(finger.name).axis}
     fingers = _coupled(left, right, couplings, flips)
     driven = set(description.joints) | {fingers[0].name}
+    limited = [replace(robot.joint(name), kind="revolute") for name in description.joints if _is_endless(robot, name)]
     others = [joint for name, joint in robot.moving.items() if name not in {*driven, *description.fingers}]
     return robot.with_joints(
-        [*fingers, *(_other(joint, couplings, driven, fingers[0].name, flips) for joint in others)]
+        [*fingers, *limited, *(_other(joint, couplings, driven, fingers[0].name, flips) for joint in others)]
     )
 
 
@@ -63,6 +65,10 @@ def placements(robot: Robot, tip: str, fingers: Sequence[str]) -> Mapping[str, F
             value = 0.0 if joint.joint is None else joint.joint.lower
             places[joint.child] = places[joint.parent] @ joint.placement(value)
     return places
+
+
+def _is_endless(robot: Robot, name: str) -> bool:
+    return robot.joint(name).kind == "continuous"
 
 
 def _with_tip(robot: Robot, tip: TipFrame | None) -> Robot:

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
 from phframe.urdf.model import CollisionGeometry, Link, MeshFile, Robot, RobotJoint, Visual
-from phframe.urdf.solids import ORIGIN, Inertia
+from phframe.urdf.solids import ORIGIN, Inertia, Solid
 
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -64,16 +64,14 @@ def _add_visual(element: ET.Element, visual: Visual, link: str) -> None:
 def _add_shape(element: ET.Element, shape: CollisionGeometry | MeshFile) -> None:
     _add_origin(element, shape.at, shape.rpy)
     geometry = ET.SubElement(element, "geometry")
-    match getattr(shape, "kind", "mesh"), getattr(shape, "size", ()):
-        case "box", size:
-            ET.SubElement(geometry, "box", size=_text(size))
-        case "cylinder", (radius, length):
-            ET.SubElement(geometry, "cylinder", radius=repr(float(radius)), length=repr(float(length)))
-        case "sphere", (radius,):
-            ET.SubElement(geometry, "sphere", radius=repr(float(radius)))
-        case _:
-            assert not hasattr(shape, "size"), "a primitive that has no element"
-            ET.SubElement(geometry, "mesh", filename=shape.file, scale=_text(shape.scale))
+    if not isinstance(shape, Solid):
+        ET.SubElement(geometry, "mesh", filename=shape.file, scale=_text(shape.scale))
+    elif shape.kind == "box":
+        ET.SubElement(geometry, "box", size=_text(shape.size))
+    elif shape.kind == "cylinder":
+        ET.SubElement(geometry, "cylinder", radius=repr(shape.size[0]), length=repr(shape.size[1]))
+    else:
+        ET.SubElement(geometry, "sphere", radius=repr(shape.size[0]))
 
 
 def _add_joint(root: ET.Element, hung: RobotJoint) -> None:
@@ -91,7 +89,7 @@ def _add_joint(root: ET.Element, hung: RobotJoint) -> None:
         ET.SubElement(element, "dynamics", damping=repr(hung.damping), friction=repr(hung.friction))
     if mimic := hung.mimic:
         numbers = {"multiplier": repr(float(mimic.multiplier)), "offset": repr(float(mimic.offset))}
-        ET.SubElement(element, "mimic", joint=mimic.joint, **numbers)
+        ET.SubElement(element, "mimic", {"joint": mimic.joint, **numbers})
 
 
 def _add_origin(element: ET.Element, at: Sequence[float], rpy: Sequence[float]) -> None:

@@ -13,7 +13,7 @@ pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import Side
 from phframe.core import FloatArray, Shelf
-from phframe.urdf.model import Mimic
+from phframe.urdf.model import CollisionGeometry, Mimic
 from phframe.urdf.reader import read_robot
 from phframe.urdf.solids import Solid
 from tests.arms.baxter_arm import SIDES, baxter
@@ -87,9 +87,10 @@ COVERS: dict[tuple[str, str], tuple[str, tuple[float, ...]]] = {
 
 
 @pytest.mark.parametrize(("link", "part"), COVERS)
-def test_covers_are_as_large_as_the_real_ones(link: str, part: str) -> None:
+def test_collision_geometry_is_as_large_as_the_real_ones(link: str, part: str) -> None:
     (solid,) = (solid for solid in read_robot(baxter("left").urdf()).collision_geometry[link] if solid.part == part)
     kind, size = COVERS[link, part]
+    assert isinstance(solid, Solid)
     assert solid.kind == kind
     np.testing.assert_allclose(solid.size, size, atol=5e-4)
 
@@ -111,7 +112,7 @@ def test_fingers_are_coupled_and_take_what_is_60_mm_wide(side: Side) -> None:
     assert gap == pytest.approx(arm.shape.min_opening, abs=1e-9)
 
 
-def inner(solids: tuple[Solid, ...]) -> float:
+def inner(solids: tuple[CollisionGeometry, ...]) -> float:
     """How near a pad is to the gripper's axis, from the finger's joint (m); negative where it is nearer than that."""
     (pad,) = (solid for solid in solids if solid.part == "pad")
     return float(min(pad.corners()[:, 1], key=abs)) * (1.0 if pad.at[1] > 0.0 else -1.0)
