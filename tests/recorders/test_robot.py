@@ -76,21 +76,24 @@ def test_meshes_replace_the_primitives_of_their_link_only() -> None:
 
 
 def test_meshes_for_no_link_are_refused() -> None:
-    with pytest.raises(ArmError, match="meshes for d, which it has no link for"):
+    with pytest.raises(ArmError, match="meshes for d, which the URDF has no link for"):
         drawn_robot(FOLLOWER, [LinkMesh("d", np.eye(3), np.array([[0, 1, 2]]))])
 
 
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("no xml", "syntax error"),
-        ('<robot><link name="a"/><joint name="j" type="fixed"><parent link="a"/></joint></robot>', "no <child>"),
+        ("no xml", "the URDF is not XML: syntax error"),
+        (
+            '<robot><link name="a"/><joint name="j" type="fixed"><parent link="a"/></joint></robot>',
+            "joint 'j' of the URDF has no link",
+        ),
         ('<robot><link name="a"><visual><geometry><box size="1 x 1"/></geometry></visual></link></robot>', "'x'"),
-        ('<robot><link name="a"/><link name="b"/></robot>', "too many"),
+        ('<robot><link name="a"/><link name="b"/></robot>', "must make one tree"),
     ],
 )
 def test_a_broken_urdf_is_one_line(text: str, why: str) -> None:
-    with pytest.raises(ArmError, match=f"the URDF of the arm cannot be drawn: .*{why}") as caught:
+    with pytest.raises(ArmError, match=why) as caught:
         drawn_robot(text)
     assert "\n" not in str(caught.value)
 

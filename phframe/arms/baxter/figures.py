@@ -23,7 +23,7 @@ class Segment:
         joint: Its name, without the side.
         link: Its link's name, without the side.
         at: Of the joint in the link before (m).
-        rpy: Turn of the joint in the link before (rad).
+        rpy: Rotation of the joint in the link before (rad).
         lower: Limit (rad).
         upper: Limit (rad).
         velocity: Limit (rad/s).

@@ -37,7 +37,7 @@ class Placed:
         file: In the package's folder.
         link: Of our URDF.
         at: Origin of the file, in the axes given (m).
-        rpy: Turn of the file there (rad).
+        rpy: Rotation of the file there (rad).
         from_tip: The axes are Rethink's gripper's (z ahead) at our fingertip or finger; else the link's own.
     """
 

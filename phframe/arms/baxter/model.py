@@ -84,7 +84,7 @@ def _arm(side: Side, parked: tuple[float, ...] | None) -> Iterator[Part]:
 
 
 def _shoulder(side: Side) -> tuple[Vector, Vector]:
-    """The first joint's place and turn on the torso."""
+    """The first joint's origin and rotation on the torso."""
     sign = 1.0 if side == "left" else -1.0
     (x, y, z), (ahead, _, up), yaw = figures.SHOULDER_AT, figures.SEGMENTS[0].at, sign * figures.SHOULDER_YAW
     return (x + ahead * cos(yaw), sign * y + ahead * sin(yaw), z + up), (0.0, 0.0, yaw)
