@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from phframe.arms.reach import Reachability, reachability
 from phframe.cli.console import emit
 from phframe.cli.needs import require
 from phframe.cli.output import Output
 from phframe.core import BasePose, InputError
 from phframe.core.paths import path_shown
+from phframe.motion.reachability import Reachability, reachability
 from phframe.registry import Kind, create
 from phframe.runtime.scenes import find_scene
 
@@ -58,9 +58,9 @@ def run(wanted: Wanted) -> None:
     arm = create(Kind.ARM, wanted.arm, wanted.options["arm"])
     own = scene.base_poses.get(wanted.arm) or arm.default_base_pose(scene.shelf)
     base_pose = own if wanted.base_pose is None else BasePose(*wanted.base_pose)
-    reach = reachability(scene, arm, base_pose)
+    reach = reachability(scene.shelf, arm, base_pose)
     if output is not None:
-        from phframe.arms.reach_map import reach_picture
+        from phframe.cli.reach_map import reach_picture
 
         output.write(reach_picture(reach, scene, f"{wanted.arm} in {scene.name}"))
     fractions = _fractions(wanted.arm, scene.name, base_pose, reach)

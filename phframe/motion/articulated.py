@@ -40,7 +40,7 @@ from phframe.motion.segments import leg_segments, straight_segments
 from phframe.motion.surface_points import SurfacePoints
 from phframe.motion.time_parametrisation import TimeParametrisation
 from phframe.urdf.description import ArmDescription
-from phframe.urdf.reader import Robot
+from phframe.urdf.model import Robot
 
 SAME_POSITION, SAME_YAW = 5e-3, 0.03
 """A path that begins no farther than this (m, rad) from where the gripper is goes on from there."""
@@ -101,7 +101,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         self._collisions = CollisionModel(arm, description, scene, base_pose, *margins)
         self._time_parametrisation = TimeParametrisation(arm, base_pose, options)
         self._names = [joint.name for joint in arm.joints]
-        self._seeds = [np.array(seed) for seed in description.postures]
+        self._seeds = [np.array(seed) for seed in description.seed_configurations]
 
     def plan(
         self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator

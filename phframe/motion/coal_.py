@@ -14,7 +14,11 @@ from phframe.core import ArmModel, BasePose, FloatArray, Scene, State
 from phframe.geometry.slabs import slabs
 from phframe.motion.collision_checking import CollisionContext
 from phframe.motion.pinocchio_ import se3
+from phframe.urdf.convex_hull import ConvexHull
 from phframe.urdf.description import ArmDescription
+from phframe.urdf.reader import read_robot
+from phframe.urdf.solids import rotation
+from phframe.urdf.writer import robot_urdf
 
 TOLERANCE = 5e-4
 """By how much what touches at the start may come nearer still (m)."""
@@ -103,7 +107,7 @@ class CollisionModel:
 
     def _pair_up(self, own: Collection[int], surroundings: Collection[int], description: ArmDescription) -> None:
         """Say what may collide with what: moving links with all that they are not joined to."""
-        geometry, allowed = self.geometry, {frozenset(pair) for pair in description.overlapping}
+        geometry, allowed = self.geometry, {frozenset(pair) for pair in description.allowed_collisions}
         fingers = frozenset(self.model.getJointId(name) for name in description.fingers)
         geometry.removeAllCollisionPairs()
         for pair in combinations(own, 2):
@@ -174,7 +178,27 @@ class CollisionChecker:
 def _reduced(urdf: str, moving: set[str]) -> tuple[Any, Any]:
     """Kinematic model and collision geometry of a robot in which only some joints move."""
     whole = pinocchio.buildModelFromXML(urdf)
-    shapes = pinocchio.buildGeomFromUrdfString(whole, urdf, pinocchio.GeometryType.COLLISION)
+    shapes = _collision_geometry(whole, urdf)
     others = [number for number, name in enumerate(whole.names) if number and name not in moving]
     model, geometry = pinocchio.buildReducedModel(whole, shapes, others, pinocchio.neutral(whole))
     return model, geometry
+
+
+def _collision_geometry(model: Any, urdf: str) -> Any:
+    """Primitives as Pinocchio reads them, and convex hulls."""
+    robot = read_robot(urdf)
+    text = robot_urdf(robot.without_hulls())
+    geometry = pinocchio.buildGeomFromUrdfString(model, text, pinocchio.GeometryType.COLLISION)
+    for number, (link, hull) in enumerate(robot.hulls):
+        frame = model.getFrameId(link)
+        at = model.frames[frame].placement * pinocchio.SE3(rotation(hull.rpy), np.array(hull.at))
+        joint = model.frames[frame].parentJoint
+        geometry.addGeometryObject(pinocchio.GeometryObject(f"hull/{number}", joint, frame, at, _convex(hull)))
+    return geometry
+
+
+def _convex(hull: ConvexHull) -> Any:
+    points, triangles = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+    points.extend(list(hull.vertices))
+    triangles.extend([coal.Triangle(a, b, c) for a, b, c in hull.triangles.tolist()])
+    return coal.Convex(points, triangles)

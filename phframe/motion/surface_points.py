@@ -8,8 +8,8 @@ import numpy as np
 
 from phframe.core import BasePose, FloatArray, rotation_matrix
 from phframe.motion.pinocchio_ import Kinematics
-from phframe.urdf.reader import Robot
-from phframe.urdf.solids import FACETS, ORIGIN, Solid, Vector, rotation
+from phframe.urdf.model import CollisionGeometry, Robot
+from phframe.urdf.solids import FACETS, ORIGIN, Vector, rotation
 
 AROUND, ALONG = 8, 5
 """Points around a cylinder, and rings of them along it."""
@@ -61,8 +61,8 @@ def _links_inside(robot: Robot, joints: Sequence[str], tip: str, depth: float) -
     for row in range(len(joints) - 1, -1, -1):
         link = robot.joint(joints[row]).child
         while child != link:
-            behind += float(np.linalg.norm(robot.connections[child].at))
-            child = robot.connections[child].parent
+            behind += float(np.linalg.norm(robot.parent_joints[child].at))
+            child = robot.parent_joints[child].parent
         if behind > depth:
             break
         found.append((row, link))
@@ -72,15 +72,15 @@ def _links_inside(robot: Robot, joints: Sequence[str], tip: str, depth: float) -
 def _on_link(robot: Robot, link: str, tip: str, at: Vector = ORIGIN, rpy: Vector = ORIGIN) -> Iterator[FloatArray]:
     """Points ``(k, 3)`` on a link and on all that is fixed to it, in the frame of the joint that carries it."""
     axes = rotation(rpy)
-    for solid in robot.covers[link]:
+    for solid in robot.collision_geometry[link]:
         yield _points(solid) @ axes.T + at
-    for connection in robot.connections.values():
+    for connection in robot.parent_joints.values():
         if connection.parent == link and connection.joint is None and connection.child != tip:
             for points in _on_link(robot, connection.child, tip, connection.at, connection.rpy):
                 yield points @ axes.T + at
 
 
-def _points(solid: Solid) -> FloatArray:
+def _points(solid: CollisionGeometry) -> FloatArray:
     """On the surface of a solid, in the frame of its link."""
     corners = solid.corners()
     if solid.kind != "cylinder":

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.arms.reach import reachability
+from phframe.motion.reachability import reachability
 from phframe.runtime.scenes import find_scene
 from tests.cli.conftest import Invoke, Run
 
@@ -15,7 +15,7 @@ def test_the_shares_are_those_of_the_map(invoke: Invoke, workplace: Path) -> Non
     scene, arm = find_scene("papallas/s02"), PlanarArm(PlanarArmOptions(link_width=0.5))
     result = invoke("arm", "reach", "--scene", "papallas/s02", "--option", "arm.link_width=0.5", "--json")
     assert result.exit_code == 0
-    fractions, reach = json.loads(result.stdout), reachability(scene, arm, arm.default_base_pose(scene.shelf))
+    fractions, reach = json.loads(result.stdout), reachability(scene.shelf, arm, arm.default_base_pose(scene.shelf))
     assert fractions["fraction"] == reach.fraction < 0.7
     assert fractions["straight"] < fractions["fraction"]
     assert len(fractions["depths"]) == len(fractions["fraction_at_depth"]) == len(reach.depths)

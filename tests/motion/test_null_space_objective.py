@@ -95,7 +95,7 @@ def test_slopes_are_those_of_the_residuals(seed: int, name: str) -> None:
 def test_a_configuration_with_the_forearm_across_is_wider_than_described() -> None:
     """Of the two in figures/baxter_mount.md for the fingertip 0.5 m deep, one has its forearm behind the gripper."""
     arm, judged = baxter(), objective("left")
-    straight = arm.description.postures[0]
+    straight = arm.description.seed_configurations[0]
     at = seen(arm, np.array(straight))
     assert judged.excess(np.array(straight), at) < 0.03
     angled = np.array([-1.031, -0.07492, 0.87285, 0.73256, 1.39329, 0.51496, 0.71163])

@@ -10,8 +10,9 @@ from typing import Any
 
 from phframe.backends.pybullet_.bodies import ARM, BOX, OBJECT, Surfaces
 from phframe.backends.pybullet_.output_capture import bullet, caught_output
-from phframe.backends.pybullet_.urdf import Coupling, PreparedUrdf
+from phframe.backends.pybullet_.urdf import PreparedUrdf
 from phframe.core import ArmModel, BasePose, IncompatibleError
+from phframe.urdf.model import Mimic
 
 STIFFNESS, DAMPING = 5e3, 50.0
 """Of the arm's cover at every point of contact (N/m, Ns/m). A rigid one would make a blow of every touch."""
@@ -23,7 +24,7 @@ COUPLING_GAIN = 0.2
 
 @dataclass(frozen=True, slots=True)
 class Follower:
-    """A joint that follows another, by PyBullet's numbers; see ``Coupling``."""
+    """A joint that follows another, by PyBullet's numbers; see ``Mimic``."""
 
     joint: int
     leader: int
@@ -64,22 +65,24 @@ def load_arm(client: int, arm: ArmModel[Any], base_pose: BasePose, urdf: Prepare
     Raises:
         IncompatibleError: If PyBullet cannot load the URDF.
     """
-    body = _load(client, arm, base_pose, urdf.text)
+    body = _load(client, arm, base_pose, urdf)
     loaded = _indexed(client, body, arm, urdf)
     for link in loaded.parts:
         _cover(client, body, link, surfaces)
     bullet.changeDynamics(body, -1, linearDamping=0.0, angularDamping=0.0, physicsClientId=client)
     numbers = {info[1].decode(): info[0] for info in loaded.infos}
-    for coupling in urdf.couplings:
-        _couple(client, body, numbers, coupling)
+    for follower, mimic in urdf.couplings.items():
+        _couple(client, body, numbers, follower, mimic)
     return loaded
 
 
-def _load(client: int, arm: ArmModel[Any], base_pose: BasePose, text: str) -> int:
+def _load(client: int, arm: ArmModel[Any], base_pose: BasePose, urdf: PreparedUrdf) -> int:
     x, y, z, qw, qx, qy, qz = base_pose.pose.tolist()
     with tempfile.TemporaryDirectory() as folder, caught_output() as said:
         path = Path(folder) / "arm.urdf"  # PyBullet reads files only
-        path.write_text(text, encoding="utf-8")
+        path.write_text(urdf.text, encoding="utf-8")
+        for name, content in urdf.files.items():
+            (path.parent / name).write_bytes(content)
         try:
             body: int = bullet.loadURDF(
                 str(path),
@@ -119,8 +122,10 @@ def _indexed(client: int, body: int, arm: ArmModel[Any], urdf: PreparedUrdf) -> 
     )
 
 
-def _followers(couplings: Sequence[Coupling], joints: Mapping[str, int], driven: Sequence[int]) -> list[Follower]:
-    found = (Follower(joints[one.joint], joints[one.leader], one.ratio, one.offset) for one in couplings)
+def _followers(couplings: Mapping[str, Mimic], joints: Mapping[str, int], driven: Sequence[int]) -> list[Follower]:
+    found = (
+        Follower(joints[name], joints[mimic.joint], mimic.multiplier, mimic.offset) for name, mimic in couplings.items()
+    )
     return [follower for follower in found if follower.joint not in driven]
 
 
@@ -132,18 +137,18 @@ def _cover(client: int, body: int, link: int, surfaces: Surfaces) -> None:
     )
 
 
-def _couple(client: int, body: int, joints: Mapping[str, int], coupling: Coupling) -> None:
+def _couple(client: int, body: int, joints: Mapping[str, int], name: str, mimic: Mimic) -> None:
     """Hold two joints together; PyBullet itself passes over ``mimic``."""
     origin = [0.0, 0.0, 0.0]
-    leader, follower = joints[coupling.leader], joints[coupling.joint]
+    leader, follower = joints[mimic.joint], joints[name]
     gear = bullet.createConstraint(
         body, leader, body, follower, bullet.JOINT_GEAR, [0.0, 1.0, 0.0], origin, origin, physicsClientId=client
     )
     # It keeps the leader plus gearRatio times the follower at relativePositionTarget.
     bullet.changeConstraint(
         gear,
-        gearRatio=-1.0 / coupling.ratio,
-        relativePositionTarget=-coupling.offset / coupling.ratio,
+        gearRatio=-1.0 / mimic.multiplier,
+        relativePositionTarget=-mimic.offset / mimic.multiplier,
         erp=COUPLING_GAIN,
         maxForce=COUPLING_FORCE,
         physicsClientId=client,

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from phframe.arms.reach import YAWS, Reachability
 from phframe.core import Scene
 from phframe.core.files import write_file
+from phframe.motion.reachability import YAWS, Reachability
 
 SIZE, DOTS = (6.4, 6.4), 120
 """Of the picture: inches, and dots per inch."""
