@@ -99,6 +99,26 @@ def trajectories_that_begin_elsewhere_are_refused(subject: PhysicsUnderTest) -> 
 
 
 @check
+def waiting_for_rest_changes_nothing_before(subject: PhysicsUnderTest) -> Faults:
+    """Physics.execute: settle=None means only not to wait; up to the trajectory's end the same happens either way."""
+    with on_stand(subject, crowd()) as stand:
+        trajectory = stand.trajectory(stand.start, CROWD_SWEEP)
+        films = [Film(1.0 / 60.0), Film(1.0 / 60.0)]
+        motions = [
+            stand.physics.simulate(stand.start, trajectory, settle=settle, watch=film.watch).motion
+            for settle, film in zip((Settle(), None), films, strict=True)
+        ]
+        ends = [motion.followed for motion in motions]
+        yield from expect_close(ends[1], ends[0], 1e-9, "how much is driven (s)")
+        tolerance = subject.tolerances.restored
+        for time, waited, hurried in zip(films[0].times, films[0].states, films[1].states[:-1], strict=False):
+            if waited.arm is not None and hurried.arm is not None:
+                where = f"with nobody waiting for rest afterwards, {time:.2f} s after the beginning (m, rad)"
+                yield from expect_close(hurried.arm.gripper, waited.arm.gripper, tolerance, f"the gripper {where}")
+                yield from expect_close(hurried.positions, waited.positions, tolerance, f"the objects {where}")
+
+
+@check
 def contacts_are_told_in_order(subject: PhysicsUnderTest) -> Faults:
     """Motion.contacts: first contact of each part of the arm with each object in each phase, in order of time."""
     scene = scene_of(cylinder("ahead", 0.2, 0.2), cylinder("beside", 0.2, 0.35), cylinder("far", 0.55, 0.55))
@@ -215,6 +235,7 @@ MOTION_CHECKS: tuple[Check[PhysicsUnderTest], ...] = (
     fingers_open_and_close_as_told,
     execution_goes_on_from_where_the_world_is,
     trajectories_that_begin_elsewhere_are_refused,
+    waiting_for_rest_changes_nothing_before,
     contacts_are_told_in_order,
     a_watcher_sees_it_all,
     stops_at_the_first_contact,
