@@ -1,10 +1,12 @@
-"""What the arm touches, and what its fingers hold between them: read from the engine's contacts."""
+"""What the arm touches, and which object its fingers hold between them, read from the engine's contacts."""
 
 from __future__ import annotations
 
 import math
 
-from phframe.backends.articulated.world import JointWorld, Pair, Vector
+from phframe.backends.articulated.engine import Vector
+from phframe.backends.articulated.world import ArticulatedWorld
+from phframe.backends.contract import Touch
 
 OPPOSED = -0.7
 """Two fingers hold what they press from opposite sides: the cosine between their pushes is below this."""
@@ -15,21 +17,18 @@ REREAD = 0.02
 LOST = 0.1
 """What the fingers have not pressed for this long (s) is no longer held."""
 
-Touch = tuple[float, str, str, bool]
-"""Time (s), part of the arm, what it met, whether that is a wall."""
 
-
-class Touches:
+class TouchLog:
     """What the arm has touched since a motion began.
 
     Args:
         world: Whose contacts are read.
     """
 
-    def __init__(self, world: JointWorld) -> None:
+    def __init__(self, world: ArticulatedWorld) -> None:
         self._world = world
         self.found: list[Touch] = []
-        self._known: set[Pair] = set()
+        self._known: set[tuple[str, str, bool]] = set()
         self._count, self._read_at, self._told = 0.0, 0.0, 0
         self._last_grip = self._held_at = 0.0
 
@@ -58,15 +57,15 @@ class Touches:
 
     @property
     def _squeezing(self) -> bool:
-        return self._world.opening - self._world.command > SQUEEZE
+        return self._world.squeeze > SQUEEZE
 
     def _read(self, time: float) -> None:
         """Note what a part of the arm touches for the first time in this phase."""
         self._read_at = time
-        for pair in self._world.touching():
-            if pair not in self._known:
-                self._known.add(pair)
-                self.found.append((time, *self._world.names(pair)))
+        for part, body, wall, *_ in self._world.engine.contacts():
+            if (part, body, wall) not in self._known:
+                self._known.add((part, body, wall))
+                self.found.append((time, part, body, wall))
 
     def _hold(self, time: float) -> None:
         """An object is held from when it is squeezed until it has been out of the fingers' grip for a while."""
@@ -81,14 +80,16 @@ class Touches:
     def _gripped(self) -> int | None:
         """Row of the object that both fingers press from opposite sides, if there is one."""
         pushes: dict[int, dict[int, Vector]] = {}
-        for row, finger, (x, y, z) in self._world.pushes():
-            fingers = pushes.setdefault(row, {})
-            fx, fy, fz = fingers.get(finger, (0.0, 0.0, 0.0))
-            fingers[finger] = fx + x, fy + y, fz + z
+        for _, _, _, row, finger, (x, y, z) in self._world.engine.contacts():
+            if row is not None and finger:
+                fingers = pushes.setdefault(row, {})
+                fx, fy, fz = fingers.get(finger, (0.0, 0.0, 0.0))
+                fingers[finger] = fx + x, fy + y, fz + z
         held = (row for row, fingers in pushes.items() if len(fingers) == 2 and _opposed(*fingers.values()))
         return next(held, None)
 
 
 def _opposed(one: Vector, other: Vector) -> bool:
+    """Whether the cosine between two pushes, a . b / |a| |b|, is that of fingers which press towards one another."""
     across = one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
     return across < OPPOSED * math.hypot(*one) * math.hypot(*other)

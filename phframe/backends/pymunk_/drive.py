@@ -278,7 +278,7 @@ class PymunkDrive:
 
     def _motion(self, followed: float) -> Motion:
         """What happened, of which the trajectory was followed for so long (s)."""
-        touches = [(tick * self._step, *rest) for tick, *rest in self._world.touched]
+        touches = [(tick * self._step, part, body, wall) for tick, part, body, wall in self._world.touched]
         contacts, walls = (tuple(first_contacts(touches, self._trajectory, walls=walls)) for walls in (False, True))
         return Motion(
             duration=self._world.tick * self._step,
