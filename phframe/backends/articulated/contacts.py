@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
-from phframe.backends.articulated.engine import Vector
+from phframe.backends.articulated.engine import EngineContact, Vector
 from phframe.backends.articulated.world import ArticulatedWorld
 from phframe.backends.contract import Touch
 
@@ -34,12 +35,15 @@ class TouchLog:
 
     def look(self, time: float, count: float) -> None:
         """Write down what the arm touches at a time (s), which has so many contacts."""
-        if count > self._count or (count and time - self._read_at >= REREAD):
-            self._read(time)
+        read = count > self._count or (count and time - self._read_at >= REREAD)
+        grip = time - self._held_at >= REREAD and (self._world.held is not None or count)
         self._count = count
-        if time - self._held_at >= REREAD and (self._world.held is not None or (count and self._squeezing)):
-            self._held_at = time
-            self._hold(time)
+        if read or grip:
+            contacts = list(self._world.engine.contacts())
+            if read:
+                self._read(time, contacts)
+            if grip:
+                self._hold(time, _gripped(contacts))
 
     def forget_phase(self) -> None:
         """Write down again what is touched already, as a new phase begins."""
@@ -55,38 +59,36 @@ class TouchLog:
         told, self._told = self._told, len(self.found)
         return self.found[told:]
 
-    @property
-    def _squeezing(self) -> bool:
-        return self._world.squeeze > SQUEEZE
-
-    def _read(self, time: float) -> None:
+    def _read(self, time: float, contacts: Sequence[EngineContact]) -> None:
         """Note what a part of the arm touches for the first time in this phase."""
-        self._read_at = time
-        for part, body, wall, *_ in self._world.engine.contacts():
-            if (part, body, wall) not in self._known:
-                self._known.add((part, body, wall))
-                self.found.append((time, part, body, wall))
+        self._read_at, known = time, self._known
+        for contact in contacts:
+            touch = contact[:3]
+            if touch not in known:
+                known.add(touch)
+                self.found.append((time, *touch))
 
-    def _hold(self, time: float) -> None:
+    def _hold(self, time: float, gripped: int | None) -> None:
         """An object is held from when it is squeezed until it has been out of the fingers' grip for a while."""
-        world, gripped = self._world, self._gripped()
-        if gripped is not None:
+        world, self._held_at = self._world, time
+        if gripped is not None and (world.held is not None or world.squeeze > SQUEEZE):
             self._last_grip = time
             if world.held != gripped:
                 world.hold(gripped)
         elif world.held is not None and time - self._last_grip > LOST:
             world.hold(None)
 
-    def _gripped(self) -> int | None:
-        """Row of the object that both fingers press from opposite sides, if there is one."""
-        pushes: dict[int, dict[int, Vector]] = {}
-        for _, _, _, row, finger, (x, y, z) in self._world.engine.contacts():
-            if row is not None and finger:
-                fingers = pushes.setdefault(row, {})
-                fx, fy, fz = fingers.get(finger, (0.0, 0.0, 0.0))
-                fingers[finger] = fx + x, fy + y, fz + z
-        held = (row for row, fingers in pushes.items() if len(fingers) == 2 and _opposed(*fingers.values()))
-        return next(held, None)
+
+def _gripped(contacts: Sequence[EngineContact]) -> int | None:
+    """Row of the object that both fingers press from opposite sides, if there is one."""
+    pushes: dict[int, dict[int, Vector]] = {}
+    for _, _, _, row, finger, (x, y, z) in contacts:
+        if row is not None and finger:
+            fingers = pushes.setdefault(row, {})
+            fx, fy, fz = fingers.get(finger, (0.0, 0.0, 0.0))
+            fingers[finger] = fx + x, fy + y, fz + z
+    held = (row for row, fingers in pushes.items() if len(fingers) == 2 and _opposed(*fingers.values()))
+    return next(held, None)
 
 
 def _opposed(one: Vector, other: Vector) -> bool:

@@ -150,9 +150,9 @@ class ArticulatedWorld:
         """
         objects = self.engine.objects()
         self._refuse_divergence(objects)
-        poses = objects.poses
-        if (poses[:, 0] < 0.0).any() or (poses[:, 2] < 0.0).any():
-            self._spill(poses)
+        x, _, z, *_ = objects.poses.min(axis=0, initial=0.0).tolist()
+        if x < 0.0 or z < 0.0:
+            self._spill(objects.poses)
 
     def _spill(self, poses: FloatArray) -> None:
         """Take out what has left the board, at poses ``(n, 7)``; the pose it was last seen at is kept."""
@@ -172,7 +172,7 @@ class ArticulatedWorld:
 
     def _refuse_divergence(self, objects: ObjectReading) -> None:
         velocities = objects.velocities
-        if not (np.abs(velocities) < self._slow).all():  # nothing that is not a number is less
+        if not max(velocities.max(initial=0.0), -velocities.min(initial=0.0)) < self._slow:  # nothing that is not a number is less
             self._refuse_fast(self._speeds(velocities))
         if (trouble := self.engine.trouble()) is not None:
             raise SimulationDivergedError(f"the simulation diverged: {trouble}")

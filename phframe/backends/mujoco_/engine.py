@@ -83,7 +83,7 @@ class MujocoEngine:
 
     def objects(self) -> ObjectReading:
         """The objects as they are now."""
-        return ObjectReading(self.data.qpos[self.model.object_poses], self.data.qvel[self.model.moving])
+        return ObjectReading(self.data.qpos.take(self.model.object_poses), self.data.qvel.take(self.model.moving))
 
     def contacts(self) -> Iterator[EngineContact]:
         """The arm's contacts with anything else, told by the bodies that geoms belong to."""
