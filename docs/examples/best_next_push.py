@@ -1,11 +1,9 @@
 """A planner in one file. Try it: phframe solve --planner docs/examples/best_next_push.py:BestNextPush."""
 
-from dataclasses import replace
+from collections.abc import Iterator
 
-from phframe.core import Infeasible, Plan, Planner, Status, Task
-from phframe.pushing.options import PushingOptions
-from phframe.pushing.persistence import usable_radii
-from phframe.pushing.push_problem import Pushing
+from phframe.core import ROOT, Plan, Planner, Task
+from phframe.pushing import Proposal, PushingOptions, PushProblem, PushSearch
 
 
 class BestNextPush(Planner[PushingOptions]):
@@ -14,27 +12,20 @@ class BestNextPush(Planner[PushingOptions]):
     options_type = PushingOptions
 
     def search(self, task: Task) -> Plan:
-        """Look one push ahead, again and again, until the corridor is empty."""
-        pushing, state = Pushing(task, self.options), task.start
-        plan = Plan(Status.CLEARED, "the corridor is empty; the episode finds the grasp")
-        for _ in range(self.options.max_actions):
-            problem = pushing.problem(state)
-            if isinstance(problem, Infeasible):
-                return replace(plan, status=Status.FAILED, reason=problem.reason)
-            if len(problem.members) == 0:
-                return plan
-            diagram = pushing.diagram(problem)
-            radii = [*usable_radii(diagram.finite_deaths, self.options.margin, pushing.threshold), pushing.threshold]
-            pushes = [push for radius in radii for push in pushing.pushes(problem, diagram, float(radius))]
-            outcomes = [transition.state for transition in task.apply_many([(state, action) for _, action in pushes])]
-            left = [int(problem.corridor.contains(outcome.positions).sum()) for outcome in outcomes]
-            if min(left, default=len(problem.members)) >= len(problem.members):
-                return replace(plan, status=Status.FAILED, reason="no push leaves fewer obstacles in the corridor")
-            (decision, action), state = pushes[left.index(min(left))], outcomes[left.index(min(left))]
-            plan = replace(
-                plan,
-                actions=(*plan.actions, action),
-                expected=(*plan.expected, state),
-                decisions=(*plan.decisions, decision),
-            )
-        return replace(plan, status=Status.FAILED, reason="the corridor is not empty after all the pushes allowed")
+        """Look one push ahead, again and again, until the target can be grasped."""
+        search, node = PushSearch(task, self.options), ROOT
+        while isinstance(step := search.next_step(node), PushProblem):
+            children = search.try_pushes(node, self.pushes(search, step))
+            left = {child: step.corridor.contains(search.state(child).positions).sum() for child in children}
+            best = min(left, key=lambda child: left[child], default=node)
+            if best == node or left[best] >= len(step.members) or search.tree.depth(best) > self.options.max_actions:
+                return search.fail(node, "no push leaves fewer obstacles in the corridor")
+            search.take(best)
+            node = best
+        return search.finish(node, step)
+
+    def pushes(self, search: PushSearch, problem: PushProblem) -> Iterator[Proposal]:
+        """The pushes of the closest component at every usable radius, and at the least distance that lets the gripper in."""
+        diagram = search.pushing.diagram(problem)
+        for radius in [*search.pushing.radii(diagram), search.pushing.threshold]:
+            yield from search.pushing.pushes(problem, diagram, radius)

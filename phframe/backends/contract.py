@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from phframe.core import Contact, GripperTrajectory, Stop
+from phframe.core import Contact, GripperTrajectory, Stop, StopCause, StopReason
 
 GRAVITY = 9.81
 """Acceleration of free fall (m/s^2)."""
@@ -17,19 +17,19 @@ Touch = tuple[float, str, str, bool]
 """Time since the motion began (s), part of the arm, name of what it met, whether that is a wall."""
 
 
-def touch_reason(stop: Stop, touches: Iterable[Touch]) -> str | None:
+def touch_reason(stop: Stop, touches: Iterable[Touch]) -> StopReason | None:
     """Why contacts of the arm end a motion, if they do."""
     for _, _, name, wall in touches:
         if (wall and stop.wall) or name in stop.bodies:
-            return f"contact with {'the ' if wall else ''}{name}"
+            return StopReason(StopCause.WALL if wall else StopCause.CONTACT, name)
     return None
 
 
-def force_reason(stop: Stop | None, force: float) -> str | None:
+def force_reason(stop: Stop | None, force: float) -> StopReason | None:
     """Why a force (N) on the arm ends a motion, if it does."""
     if stop is None or stop.force is None or force <= stop.force:
         return None
-    return f"a force of {force:.0f} N"
+    return StopReason(StopCause.FORCE, force=force)
 
 
 def first_contacts(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-PARTS = ("planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "scenes")
+PARTS = ("planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "goal", "scenes")
 """What has options; a key without a prefix is the planner's."""
 
 EXAMPLES = "margin=0.02 (the planner's), arm.link_width=0.1, scenes.count=12"

@@ -121,7 +121,10 @@ TimeLimit = Annotated[
 MaxReplans = Annotated[
     int,
     typer.Option(
-        "--max-replans", metavar="INTEGER", min=0, help="How often to plan anew when reality differs from the plan."
+        "--max-replans",
+        metavar="INTEGER",
+        min=0,
+        help="How often to plan anew at most: where reality differs from the plan, or the arm cannot do an action.",
     ),
 ]
 Tolerance = Annotated[
@@ -178,7 +181,7 @@ def solve(
     noise: NoiseText = None,
     option: OptionTexts = None,
     time_limit: TimeLimit = 300.0,
-    max_replans: MaxReplans = 10,
+    max_replans: MaxReplans = 30,
     tolerance: Tolerance = 0.01,
     out: Out = None,
     rerun: Rerun = None,

@@ -1,8 +1,9 @@
 """The language of phframe: data types, the abstract interfaces, Task and the errors. Depends on nothing else of ours."""
 
+from phframe.core.action import Action, ActionKind
 from phframe.core.arm import ArmModel, ArmShape, Fingers, Joint, Outline
 from phframe.core.condition import condition_of
-from phframe.core.corridor import Corridor, Rectangle, Sweep
+from phframe.core.decision import Decision
 from phframe.core.episode import Episode, Loop, Setup, Step
 from phframe.core.errors import (
     ArmError,
@@ -16,48 +17,61 @@ from phframe.core.errors import (
     SceneError,
     SimulationDivergedError,
     UnknownNameError,
+    UnknownShapeError,
 )
-from phframe.core.gripper_path import MOUTH_CLEARANCE, Action, Contacts, GripperPath, Phase, PhaseRule
+from phframe.core.goal import Assessment, Attempt, Goal
+from phframe.core.gripper_path import MOUTH_CLEARANCE, Contacts, GripperPath, Phase, PhaseRule, controlled_path
 from phframe.core.infeasible import Infeasible
 from phframe.core.mesh import LinkMesh
-from phframe.core.motion import FORCE_WINDOW, Contact, Motion, Transition
-from phframe.core.motion_planner import MotionPlanner, Unreachable
+from phframe.core.motion import FORCE_WINDOW, Contact, Motion, StopCause, StopReason, Transition
+from phframe.core.motion_planner import MotionPlanner
 from phframe.core.options import Options
 from phframe.core.physics import Physics, Settle, Stop, SupportsPropagation, Watch
-from phframe.core.plan import Cost, Decision, Plan, Status
+from phframe.core.plan import Cost, Plan
 from phframe.core.planner import Planner
 from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, tilt_of, yaw_of
-from phframe.core.scene import BasePose, Cylinder, Scene, SceneObject, Shape, Shelf, coulomb_with_board
+from phframe.core.rejection import Rejection
+from phframe.core.scene import BasePose, Scene, SceneObject, Shelf, coulomb_with_board
+from phframe.core.search_tree import ROOT, ExploredTree, SearchNode, SearchTree
+from phframe.core.shape import Cylinder, Shape
 from phframe.core.state import ArmState, Condition, State
 from phframe.core.state_check import refuse_foreign
+from phframe.core.status import Status
+from phframe.core.steering import Steering
 from phframe.core.suite import SceneSuite
 from phframe.core.task import Budget, Task
 from phframe.core.topology import PersistenceDiagram, TopologyEngine
 from phframe.core.trajectory import GripperTrajectory, JointTrajectory, Trajectory, starting_from, time_path
+from phframe.core.unreachable import Unreachable
 from phframe.core.value import FloatArray, Floats, IntArray, Ints, Value
 
 __all__ = [
     "FORCE_WINDOW",
     "MOUTH_CLEARANCE",
+    "ROOT",
     "Action",
+    "ActionKind",
     "ArmError",
     "ArmModel",
     "ArmShape",
     "ArmState",
+    "Assessment",
+    "Attempt",
     "BasePose",
     "Budget",
     "BudgetExceededError",
     "Condition",
     "Contact",
     "Contacts",
-    "Corridor",
     "Cost",
     "Cylinder",
     "Decision",
     "Episode",
+    "ExploredTree",
     "Fingers",
     "FloatArray",
     "Floats",
+    "Goal",
     "GripperPath",
     "GripperTrajectory",
     "IncompatibleError",
@@ -83,11 +97,13 @@ __all__ = [
     "Plan",
     "Planner",
     "PluginError",
-    "Rectangle",
+    "Rejection",
     "Scene",
     "SceneError",
     "SceneObject",
     "SceneSuite",
+    "SearchNode",
+    "SearchTree",
     "Settle",
     "Setup",
     "Shape",
@@ -95,20 +111,24 @@ __all__ = [
     "SimulationDivergedError",
     "State",
     "Status",
+    "Steering",
     "Step",
     "Stop",
+    "StopCause",
+    "StopReason",
     "SupportsPropagation",
-    "Sweep",
     "Task",
     "TopologyEngine",
     "Trajectory",
     "Transition",
     "UnknownNameError",
+    "UnknownShapeError",
     "Unreachable",
     "Value",
     "Watch",
     "compose",
     "condition_of",
+    "controlled_path",
     "coulomb_with_board",
     "inverse",
     "planar_pose",

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from phframe.core.action import Action, ActionKind
+from phframe.core.decision import AnyDecision
 from phframe.core.errors import InputError
-from phframe.core.gripper_path import Action
 from phframe.core.motion import Motion
-from phframe.core.plan import Cost, Decision, Plan, Status
+from phframe.core.plan import Cost, Plan
+from phframe.core.rejection import Rejection
 from phframe.core.scene import Scene
 from phframe.core.state import Condition, State
+from phframe.core.status import Status
 from phframe.core.trajectory import Trajectory
 from phframe.core.value import FloatArray, Value
 
@@ -26,7 +29,7 @@ class Loop:
     """How an episode closes the loop.
 
     Attributes:
-        max_replans: How often the planner may be asked again.
+        max_replans: How often the planner may be asked again, whatever for.
         tolerance: An object farther than this (m) from where it was expected calls for a replan.
         time_limit: Wall time for all planning together (s).
         simulations: Simulated actions for all planning together; None: no limit.
@@ -35,7 +38,7 @@ class Loop:
         InputError: If a figure is negative or not a number.
     """
 
-    max_replans: int = 10
+    max_replans: int = 30
     tolerance: float = 0.01
     time_limit: float = 300.0
     simulations: int | None = None
@@ -85,12 +88,13 @@ class Step(Value):
     Attributes:
         action: What was to be done.
         trajectory: What was driven.
-        before: The world before it, as it was; a robot that measures with errors sees it otherwise.
-        after: The world after it, likewise.
+        before: The world before it, as it was.
+        after: The world after it, as it was.
         expected: What the plan expected after it; None where nothing was predicted.
         motion: What happened.
         decision: Why the action was chosen.
         plan: Index of the episode's plan it comes from.
+        seen: The world after it as the robot saw it; None: as it was.
     """
 
     action: Action
@@ -99,8 +103,9 @@ class Step(Value):
     after: State
     expected: State | None
     motion: Motion
-    decision: Decision
+    decision: AnyDecision
     plan: int
+    seen: State | None = None
 
     @property
     def prediction_errors(self) -> FloatArray:
@@ -121,7 +126,8 @@ class Episode(Value):
         reason: Why no farther; empty where the target was retrieved.
         plans: All plans, the replans included.
         steps: All actions carried out.
-        motion_planning_time: Wall time for lifting actions to joints (s); left out when episodes are compared.
+        rejections: The actions that could not be carried out or came to nothing, and why.
+        motion_planning_time: Wall time for planning joint trajectories (s); left out when episodes are compared.
     """
 
     scene: Scene
@@ -130,6 +136,7 @@ class Episode(Value):
     reason: str
     plans: tuple[Plan, ...]
     steps: tuple[Step, ...]
+    rejections: tuple[Rejection, ...] = ()
     motion_planning_time: float = field(default=0.0, compare=False)
 
     @property
@@ -140,7 +147,11 @@ class Episode(Value):
     @property
     def pushes(self) -> int:
         """Number of pushing actions carried out: the paper's number of actions."""
-        return sum(not step.action.grasps for step in self.steps)
+        return self.count(ActionKind.PUSH)
+
+    def count(self, kind: ActionKind) -> int:
+        """Number of actions of one kind carried out."""
+        return sum(step.action.kind is kind for step in self.steps)
 
     @property
     def replans(self) -> int:
@@ -149,8 +160,9 @@ class Episode(Value):
 
     @property
     def cost(self) -> Cost:
-        """What all plans together cost."""
-        return sum((plan.cost for plan in self.plans), Cost())
+        """What all plans together cost, and the planning of all joint trajectories."""
+        plans = sum((plan.cost for plan in self.plans), Cost())
+        return replace(plans, motion_planning=self.motion_planning_time)
 
     @property
     def execution_time(self) -> float:
@@ -170,7 +182,7 @@ class Episode(Value):
 
     @property
     def deviations(self) -> Counter[str]:
-        """How often each of phframe's own deviations was used in the actions carried out."""
+        """How often each of phframe's own choices was used in the actions carried out."""
         return Counter(deviation for step in self.steps for deviation in step.decision.deviations)
 
     @property
@@ -191,7 +203,7 @@ class Episode(Value):
     def target_moved(self) -> float:
         """How far pushing displaced the target before the grasp (m)."""
         row, start = self.scene.target_index, self.scene.initial_state()
-        pushed = [step.after for step in self.steps if not step.action.grasps]
+        pushed = [step.after for step in self.steps if step.action.kind is not ActionKind.GRASP]
         last = pushed[-1] if pushed else start
         return float(((last.poses[row, :3] - start.poses[row, :3]) ** 2).sum() ** 0.5)
 

@@ -94,6 +94,22 @@ class IncompatibleError(InputError):
     """Parts that exist but cannot be used together, such as an arm and a backend."""
 
 
+class UnknownShapeError(PhframeError):
+    """A shape that a part of phframe has no primitive for.
+
+    Args:
+        shape: The shape.
+        where: What does not know it, such as ``the MuJoCo backend``.
+    """
+
+    def __init__(self, shape: object, where: str) -> None:
+        self.shape, self.where = shape, where
+        super().__init__(f"{where} has no primitive for the shape {getattr(shape, 'kind', type(shape).__name__)!r}")
+
+    def __reduce__(self) -> tuple[type[UnknownShapeError], tuple[object, str]]:
+        return type(self), (self.shape, self.where)
+
+
 class SimulationDivergedError(PhframeError):
     """The physics engine returned poses that are not numbers or speeds that are not physical."""
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from enum import StrEnum
 
 from phframe.core.gripper_path import Phase
 from phframe.core.state import State
+from phframe.core.unreachable import Unreachable
 from phframe.core.value import Value
 
 FORCE_WINDOW = 0.02
@@ -29,6 +31,41 @@ class Contact:
     part: str = ""
 
 
+class StopCause(StrEnum):
+    """What ended a motion before its trajectory did."""
+
+    FORCE = "force"
+    CONTACT = "contact"
+    WALL = "wall"
+    UNREACHABLE = "unreachable"
+
+
+@dataclass(frozen=True, slots=True)
+class StopReason:
+    """Why a motion ended early.
+
+    Attributes:
+        cause: What ended it.
+        body: What the arm touched, where that is the cause.
+        force: The force on the arm (N), where that is the cause.
+        unreachable: What the arm cannot do, where that is the cause: then nothing moved.
+    """
+
+    cause: StopCause
+    body: str = ""
+    force: float = 0.0
+    unreachable: Unreachable | None = None
+
+    def __str__(self) -> str:
+        match self.cause:
+            case StopCause.FORCE:
+                return f"a force of {self.force:.0f} N"
+            case StopCause.UNREACHABLE:
+                return f"unreachable: {self.unreachable.why if self.unreachable else ''}"
+            case _:
+                return f"contact with {'the ' if self.cause is StopCause.WALL else ''}{self.body}"
+
+
 @dataclass(frozen=True, slots=True)
 class Motion:
     """What executing a trajectory did.
@@ -39,7 +76,7 @@ class Motion:
         wall_contacts: The same with walls.
         largest_force: The largest force on the arm (N): magnitude of the sum of its contact forces, mean of 20 ms.
         stalled: Whether the force limit kept the arm from going on. It then stands where it stalled.
-        stopped: Why the motion ended early (which stop condition), or None.
+        stopped: Why the motion ended early, or None.
         tracking_error: Largest distance between where the fingertip was meant to be and where it was (m).
         settled: Whether everything came to rest in the time allowed.
         followed: How much of the trajectory was driven (s), settling excluded.
@@ -50,7 +87,7 @@ class Motion:
     wall_contacts: tuple[Contact, ...] = ()
     largest_force: float = 0.0
     stalled: bool = False
-    stopped: str | None = None
+    stopped: StopReason | None = None
     tracking_error: float = 0.0
     settled: bool = True
     followed: float = 0.0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
@@ -14,24 +13,7 @@ from phframe.core.options import Options
 from phframe.core.scene import BasePose, Scene
 from phframe.core.state import State
 from phframe.core.trajectory import JointTrajectory
-
-
-@dataclass(frozen=True, slots=True)
-class Unreachable:
-    """A path that an arm cannot follow.
-
-    Attributes:
-        where: How far along the path it gets (m).
-        why: The joint limit, the collision and with what, or the missing inverse.
-        leg: Index of the path's leg on which it ends.
-        bodies: What is collided with, if anything.
-    """
-
-    where: float
-    why: str
-    leg: int | None = None
-    bodies: tuple[str, ...] = ()
-
+from phframe.core.unreachable import Unreachable
 
 OptionsT = TypeVar("OptionsT", bound=Options)
 
@@ -48,7 +30,7 @@ class MotionPlanner(ABC, Generic[OptionsT]):
     def plan(
         self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
-        """Lift a path to joints.
+        """Plan a joint trajectory for a path.
 
         Inside the shelf the fingertip follows the path in the gripper plane; how the arm gets from where it is to the
         path's first pose is up to the planner, and may leave that plane. The speeds of the path's rules are upper
@@ -57,7 +39,7 @@ class MotionPlanner(ABC, Generic[OptionsT]):
         Args:
             path: Where the gripper is to go.
             state: Where the objects and the arm are.
-            attempts: How often to try anew; unlike seconds, it ends runs repeatably.
-            seconds: Time allowed.
+            attempts: How often to try anew; this is what ends a search, repeatably.
+            seconds: Time after which a hopeless search ends all the same; the result then says so (``timed_out``).
             rng: The only source of randomness.
         """

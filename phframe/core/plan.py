@@ -3,66 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from enum import StrEnum
+from typing import Self
 
-from phframe.core.corridor import Corridor, Rectangle, Sweep
-from phframe.core.errors import InputError
-from phframe.core.gripper_path import Action
+from phframe.core.action import Action
+from phframe.core.decision import Decision
+from phframe.core.motion import Motion, Transition
+from phframe.core.search_tree import ROOT, ExploredTree, SearchNode, SearchTree
 from phframe.core.state import State
-from phframe.core.topology import PersistenceDiagram
-from phframe.core.value import Ints, Value, frozen_ints
-
-
-class Status(StrEnum):
-    """How far it got."""
-
-    RETRIEVED = "retrieved"
-    """The target is out of the shelf and in the hand."""
-    REACHED = "reached"
-    """The gripper was at a grasp pose with the link free (the paper's success), but did not bring the target out."""
-    CLEARED = "cleared"
-    """The corridor is empty."""
-    FAILED = "failed"
-    """Nothing was found, or the target was lost; the reason says why."""
-    TIMEOUT = "timeout"
-    """The budget ran out first."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Decision(Value):
-    """Why an action was chosen. Fields that a planner has no use for stay empty.
-
-    Attributes:
-        corridor: The strip to be emptied.
-        members: Ids of the obstacles considered, in the order of ``labels``: those in the corridor, and those that
-            blocked the grasp.
-        diagram: Of the members' centres.
-        persistent_radii: Those that pass the margin test, ascending (m).
-        radius: The one chosen (m).
-        labels: The component of each member at that radius.
-        chosen: Ids of the members of the component chosen.
-        rectangle: Around the chosen.
-        sweep: The push.
-        deviations: Which of phframe's own deviations of what the paper leaves open were used, by name.
-        parent: Index, among the plan's decisions, of the one before it in the search tree; None: it starts from the root.
-    """
-
-    corridor: Corridor | None = None
-    members: tuple[str, ...] = ()
-    diagram: PersistenceDiagram | None = None
-    persistent_radii: tuple[float, ...] = ()
-    radius: float | None = None
-    labels: Ints | None = None
-    chosen: tuple[str, ...] = ()
-    rectangle: Rectangle | None = None
-    sweep: Sweep | None = None
-    deviations: tuple[str, ...] = ()
-    parent: int | None = None
-
-    def __post_init__(self) -> None:
-        if self.labels is not None:
-            object.__setattr__(self, "labels", frozen_ints(self.labels))
+from phframe.core.status import Status
+from phframe.core.value import Value
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +24,7 @@ class Cost:
         total: Wall time (s).
         topology: Of which in the topology engine (s).
         simulation: Of which in simulated actions (s).
-        motion_planning: Of which in motion planning (s).
+        motion_planning: In planning joint trajectories (s).
         simulated_actions: How many actions were simulated.
     """
 
@@ -95,31 +46,55 @@ class Cost:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan(Value):
-    """What a planner returns, success or not.
+    """What a planner returns, success or not: a path through what it has tried.
 
     Attributes:
         status: How far the actions are expected to get.
-        reason: Why no farther, for people; empty where the target is retrieved.
-        actions: In order. The last may be the grasp.
-        expected: The state expected after each action.
-        decisions: Why each action was chosen, one per action.
+        reason: Why no farther, for people; empty where the goal is met.
+        tree: What was tried; the chosen path holds the actions. None: nothing was.
         cost: What planning cost; left out when plans are compared.
-
-    Raises:
-        InputError: If there is not one expected state and one decision per action.
     """
 
     status: Status
     reason: str = ""
-    actions: tuple[Action, ...] = ()
-    expected: tuple[State, ...] = ()
-    decisions: tuple[Decision, ...] = ()
+    tree: ExploredTree | None = None
     cost: Cost = field(default=Cost(), compare=False)
 
-    def __post_init__(self) -> None:
-        lengths = len(self.actions), len(self.expected), len(self.decisions)
-        if len(set(lengths)) > 1:
-            raise InputError(f"a plan needs one expected state and one decision per action, not {lengths}")
+    @classmethod
+    def of(
+        cls,
+        status: Status,
+        reason: str,
+        start: State,
+        steps: Iterable[tuple[Action, State] | tuple[Action, State, Decision]],
+    ) -> Self:
+        """A plan of actions one after another, without a search.
+
+        Args:
+            status: How far they are expected to get.
+            reason: Why no farther.
+            start: The state before the first.
+            steps: The actions, the state expected after each, and why it was chosen.
+        """
+        tree, node = SearchTree(start), ROOT
+        for action, expected, *decision in steps:
+            node = tree.child(node, action, Transition(expected, Motion(0.0)), *decision)
+        return cls(status, reason, tree.explored(node))
+
+    @property
+    def actions(self) -> tuple[Action, ...]:
+        """The actions, in order."""
+        return tuple(node.action for node in self._path if node.action is not None)
+
+    @property
+    def expected(self) -> tuple[State, ...]:
+        """The state expected after each action."""
+        return tuple(node.state for node in self._path)
+
+    @property
+    def decisions(self) -> tuple[Decision, ...]:
+        """Why each action was chosen."""
+        return tuple(node.decision for node in self._path if node.decision is not None)
 
     @property
     def succeeded(self) -> bool:
@@ -128,5 +103,9 @@ class Plan(Value):
 
     @property
     def deviations(self) -> Counter[str]:
-        """How often each of phframe's own deviations of what the paper leaves open was used."""
+        """How often each of phframe's own choices, where the published method leaves something open, was used."""
         return Counter(deviation for decision in self.decisions for deviation in decision.deviations)
+
+    @property
+    def _path(self) -> tuple[SearchNode, ...]:
+        return () if self.tree is None else self.tree.path

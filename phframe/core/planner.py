@@ -8,14 +8,15 @@ from typing import ClassVar, Generic, TypeVar, final
 
 from phframe.core.errors import BudgetExceededError, PluginError, SimulationDivergedError
 from phframe.core.options import Options
-from phframe.core.plan import Plan, Status
+from phframe.core.plan import Plan
+from phframe.core.status import Status
 from phframe.core.task import Task
 
 OptionsT = TypeVar("OptionsT", bound=Options)
 
 
 class Planner(ABC, Generic[OptionsT]):
-    """Finds the actions that bring the target out. Stateless: one object may plan many tasks.
+    """Finds the actions that achieve a goal. Stateless: one object may plan many tasks.
 
     A planner is one class with ``search`` and, where it has options, ``options_type``::
 
@@ -40,9 +41,9 @@ class Planner(ABC, Generic[OptionsT]):
         try:
             plan = self.search(task)
         except BudgetExceededError as error:
-            plan = task.offered or Plan(Status.TIMEOUT, str(error))
+            plan = task.offered or Plan(Status.TIMEOUT, str(error), task.explored)
         except SimulationDivergedError as error:
-            plan = task.offered or Plan(Status.FAILED, str(error))
+            plan = task.offered or Plan(Status.FAILED, str(error), task.explored)
         if not isinstance(plan, Plan):
             raise PluginError(f"planner {type(self).__name__} returned {plan!r} instead of a Plan")
         return replace(plan, cost=task.cost)

@@ -8,18 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 
 from phframe.core.errors import SceneError
 from phframe.core.pose import planar_pose
 from phframe.core.scene_check import problems_of
+from phframe.core.shape import Cylinder
 from phframe.core.state import Condition, State
 from phframe.core.value import FloatArray
 
 BOARD_FRICTION = 0.25
 WALL_FRICTION = 0.2
+
+AnyShape = Cylinder
+"""The shapes that objects of a scene may have, as files know them: one, and more to come."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,28 +45,6 @@ class Shelf:
 
 
 @dataclass(frozen=True, slots=True)
-class Cylinder:
-    """An upright cylinder.
-
-    Attributes:
-        radius: Metres.
-        height: Metres.
-    """
-
-    radius: float
-    height: float = 0.12
-    kind: Literal["cylinder"] = "cylinder"
-
-    @property
-    def bounding_radius(self) -> float:
-        """Radius (m) of the smallest upright cylinder about the object's origin that holds the shape."""
-        return self.radius
-
-
-Shape = Cylinder
-
-
-@dataclass(frozen=True, slots=True)
 class SceneObject:
     """One object at rest on the board.
 
@@ -77,7 +58,7 @@ class SceneObject:
     """
 
     id: str
-    shape: Shape
+    shape: AnyShape
     position: tuple[float, float]
     yaw: float = 0.0
     mass: float = 0.3

@@ -28,16 +28,20 @@ def _bad_figures(scene: Scene) -> Iterator[str]:
     for name in ("board_friction", "wall_friction"):
         yield from _negative(f"shelf {name}", getattr(shelf, name))
     for item in scene.objects:
-        yield from _not_positive(f"object {item.id!r}: radius", item.shape.radius)
-        yield from _not_positive(f"object {item.id!r}: height", item.shape.height)
-        yield from _not_positive(f"object {item.id!r}: mass", item.mass)
-        yield from _negative(f"object {item.id!r}: friction", item.friction or 0.0)
-        for name, number in zip(("x", "y", "yaw"), (*item.position, item.yaw), strict=True):
-            if not math.isfinite(number):
-                yield f"object {item.id!r}: {name} is {number}, not a finite number"
+        yield from _bad_object(item)
     for name, base_pose in scene.base_poses.items():
         if not all(math.isfinite(number) for number in (base_pose.x, base_pose.y, base_pose.z, base_pose.yaw)):
             yield f"base pose of {name!r}: {base_pose} holds a number that is not finite"
+
+
+def _bad_object(item: SceneObject) -> Iterator[str]:
+    for name, figure in item.shape.figures().items():
+        yield from _not_positive(f"object {item.id!r}: {name}", figure)
+    yield from _not_positive(f"object {item.id!r}: mass", item.mass)
+    yield from _negative(f"object {item.id!r}: friction", item.friction or 0.0)
+    for name, number in zip(("x", "y", "yaw"), (*item.position, item.yaw), strict=True):
+        if not math.isfinite(number):
+            yield f"object {item.id!r}: {name} is {number}, not a finite number"
 
 
 def _not_positive(name: str, number: float) -> Iterator[str]:

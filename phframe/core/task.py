@@ -5,21 +5,28 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
+from phframe.core.action import Action
 from phframe.core.arm import ArmShape
 from phframe.core.errors import BudgetExceededError, InputError
-from phframe.core.gripper_path import Action
+from phframe.core.goal import Goal
 from phframe.core.motion import Transition
+from phframe.core.physics import Stop, SupportsPropagation
 from phframe.core.plan import Cost, Plan
+from phframe.core.rejection import Rejection
 from phframe.core.scene import Scene
+from phframe.core.search_tree import ExploredTree, SearchTree
 from phframe.core.state import State
+from phframe.core.steering import Begin, Steering
 from phframe.core.topology import PersistenceDiagram, TopologyEngine
+from phframe.core.unreachable import Unreachable
 from phframe.core.value import FloatArray, IntArray
 
 Pair = tuple[State, Action]
+ResultT = TypeVar("ResultT")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,14 +48,21 @@ class Budget:
             raise InputError(f"a budget of {self.simulations!r} simulations is none: give 0 or more")
 
 
+Apply = Callable[[State, Action, Stop | None], Transition]
+ApplyMany = Callable[[Sequence[Pair], Stop | None], Iterable[Transition]]
+Reach = Callable[[State, Action], Unreachable | None]
+"""Whether the arm that will carry an action out can, from a state; None: it can."""
+
+
 class Task:
     """One planning problem. Planners know nothing else: no backend, no arm model, no engine.
 
     Attributes:
         scene: Shelf, objects, target.
         start: The world to plan from; it need not be the scene's initial state.
+        goal: What is to be achieved.
         arm: The arm seen from above.
-        rejected: Actions that could not be carried out; do not propose them again.
+        rejected: Actions that could not be carried out or came to nothing, and why; see ``rejects``.
         rng: The only source of randomness.
         budget: What may be spent; ``apply`` keeps to it.
     """
@@ -58,48 +72,78 @@ class Task:
         *,
         scene: Scene,
         start: State,
+        goal: Goal[Any],
         arm: ArmShape,
         topology: TopologyEngine[Any],
-        apply: Callable[[State, Action], Transition],
+        apply: Apply,
         rng: np.random.Generator,
-        apply_many: Callable[[Sequence[Pair]], Iterable[Transition]] | None = None,
+        apply_many: ApplyMany | None = None,
         budget: Budget = Budget(),
-        rejected: tuple[Action, ...] = (),
+        rejected: tuple[Rejection, ...] = (),
+        reach: Reach | None = None,
+        steered: SupportsPropagation[Any] | None = None,
+        begin_steering: Begin | None = None,
     ) -> None:
-        self.scene, self.start, self.arm = scene, start, arm
+        self.scene, self.start, self.goal, self.arm = scene, start, goal, arm
         self.rejected, self.rng, self.budget = rejected, rng, budget
         self._apply, self._apply_many, self._topology = apply, apply_many, topology
+        self._reach, self._steered, self._begin_steering = reach, steered, begin_steering
         self._began = time.perf_counter()
         self._cost = Cost()
         self._offered: Plan | None = None
+        self._tree: SearchTree | None = None
 
-    def apply(self, state: State, action: Action) -> Transition:
+    def apply(self, state: State, action: Action, *, stop: Stop | None = None) -> Transition:
         """What an action would make of a state: pure, from any state, in the planning world.
+
+        Args:
+            state: Any state.
+            action: What is done. One that the planning arm cannot do changes nothing; the motion says why.
+            stop: When to end early, such as at the first contact with some objects; the arm then stands where it is.
 
         Raises:
             BudgetExceededError: If the budget is spent. ``Planner.plan`` turns it into a result.
         """
-        self._spend(1)
-        began = time.perf_counter()
-        try:
-            return self._apply(state, action)
-        finally:
-            self._charge(simulation=time.perf_counter() - began, simulated_actions=1)
+        return self._simulated(lambda: self._apply(state, action, stop))
 
-    def apply_many(self, pairs: Sequence[Pair]) -> list[Transition]:
+    def apply_many(self, pairs: Sequence[Pair], *, stop: Stop | None = None) -> list[Transition]:
         """``apply`` to many pairs, spread over workers where there are some; the results in the order of the pairs.
 
         Raises:
             BudgetExceededError: As ``apply``.
         """
-        if self._apply_many is None:
-            return [self.apply(state, action) for state, action in pairs]
-        self._spend(len(pairs))
+        if (many := self._apply_many) is None:
+            return [self.apply(state, action, stop=stop) for state, action in pairs]
+        return self._simulated(lambda: list(many(pairs, stop)), len(pairs))
+
+    def rejects(self, action: Action) -> Rejection | None:
+        """Why an action is not to be proposed (again); None: it may be. Deviations below a millimetre do not count."""
+        return next((rejection for rejection in self.rejected if rejection.action.resembles(action)), None)
+
+    def reachable(self, action: Action, state: State | None = None) -> Unreachable | None:
+        """Whether the arm that will carry an action out can follow it: None if so, else where and why not.
+
+        Where that arm is driven by its joints this plans their motion, which takes tenths of a second; where its outline
+        is moved, it asks its inverse kinematics. What it takes counts as motion planning.
+
+        Args:
+            action: The action.
+            state: From which it begins; None: the task's start.
+        """
+        if self._reach is None:
+            return None
         began = time.perf_counter()
         try:
-            return list(self._apply_many(pairs))
+            return self._reach(self.start if state is None else state, action)
         finally:
-            self._charge(simulation=time.perf_counter() - began, simulated_actions=len(pairs))
+            self._cost += Cost(motion_planning=time.perf_counter() - began)
+
+    @property
+    def steering(self) -> Steering[Any] | None:
+        """Control-level steering of the planning world's gripper; None where the world has none."""
+        if self._steered is None or self._begin_steering is None:
+            return None
+        return Steering(self._steered, self._begin_steering, self._simulated)
 
     def diagram(self, points: FloatArray) -> PersistenceDiagram:
         """The persistence diagram of points ``(n, 2)`` (m)."""
@@ -107,7 +151,7 @@ class Task:
         try:
             return self._topology.diagram(points)
         finally:
-            self._charge(topology=time.perf_counter() - began)
+            self._cost += Cost(topology=time.perf_counter() - began)
 
     def components(self, points: FloatArray, radius: float) -> IntArray:
         """Labels ``(n,)`` of the components of points ``(n, 2)`` at a radius (m)."""
@@ -115,7 +159,17 @@ class Task:
         try:
             return self._topology.components(points, radius)
         finally:
-            self._charge(topology=time.perf_counter() - began)
+            self._cost += Cost(topology=time.perf_counter() - began)
+
+    def search_tree(self) -> SearchTree:
+        """A tree that begins at the task's start. Should the budget run out, what was tried is told by the last one made."""
+        self._tree = SearchTree(self.start)
+        return self._tree
+
+    @property
+    def explored(self) -> ExploredTree | None:
+        """What was tried so far, with the deepest path as the chosen one; None where no tree was asked for."""
+        return None if self._tree is None else self._tree.explored(self._tree.deepest)
 
     def offer(self, plan: Plan) -> None:
         """Keep a plan as the result in case the budget runs out; the last one offered counts."""
@@ -143,5 +197,11 @@ class Task:
         if limit is not None and self._cost.simulated_actions + simulations > limit:
             raise BudgetExceededError(f"the budget of {limit} simulated actions is used up")
 
-    def _charge(self, *, simulation: float = 0.0, topology: float = 0.0, simulated_actions: int = 0) -> None:
-        self._cost += Cost(simulation=simulation, topology=topology, simulated_actions=simulated_actions)
+    def _simulated(self, simulate: Callable[[], ResultT], simulations: int = 1) -> ResultT:
+        """Simulate within the budget, and count it."""
+        self._spend(simulations)
+        began = time.perf_counter()
+        try:
+            return simulate()
+        finally:
+            self._cost += Cost(simulation=time.perf_counter() - began, simulated_actions=simulations)

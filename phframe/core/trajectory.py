@@ -124,17 +124,17 @@ Trajectory = GripperTrajectory | JointTrajectory
 
 
 def time_path(path: GripperPath, opening: float, force_limit: float) -> GripperTrajectory:
-    """Give a path its times: every leg at its phase's speeds, whichever of moving, turning and gripping takes longest.
+    """Give a path its times: every leg at the speeds of its rule, whichever of moving, turning and gripping takes longest.
 
     Args:
         path: The path.
         opening: Distance between the fingers (m) at the start.
         force_limit: Net contact force (N) above which the arm stalls.
     """
-    openings = [opening, *(path.rules[phase].opening for phase in path.phases)]
+    openings = [opening, *(path.rule(leg).opening for leg in range(len(path.phases)))]
     durations = [
-        _duration(path.rules[phase], path.poses[leg + 1] - path.poses[leg], openings[leg + 1] - openings[leg])
-        for leg, phase in enumerate(path.phases)
+        _duration(path.rule(leg), path.poses[leg + 1] - path.poses[leg], openings[leg + 1] - openings[leg])
+        for leg in range(len(path.phases))
     ]
     times = np.concatenate([[0.0], np.cumsum(durations)])
     return GripperTrajectory(times, path.poses, np.array(openings), path.phases, force_limit)
@@ -149,5 +149,10 @@ def starting_from(path: GripperPath, pose: FloatArray, rule: PhaseRule) -> Gripp
     """The path with an approach leg put before it, from where the gripper is, ``pose`` ``(3,)``."""
     if pose.tobytes() == path.poses[0].tobytes():
         return path
-    poses = np.vstack([pose, path.poses])
-    return replace(path, poses=poses, phases=(Phase.APPROACH, *path.phases), rules={Phase.APPROACH: rule, **path.rules})
+    return replace(
+        path,
+        poses=np.vstack([pose, path.poses]),
+        phases=(Phase.APPROACH, *path.phases),
+        rules={Phase.APPROACH: rule, **path.rules},
+        overrides={leg + 1: own for leg, own in path.overrides.items()},
+    )

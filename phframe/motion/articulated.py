@@ -107,7 +107,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         self, path: GripperPath, router: Router, begin: FloatArray, opening: float
     ) -> JointTrajectory | Unreachable:
         """The path from where the arm is; what it touches there, it may touch until it has got away."""
-        self._tracker.permit(path.rules[path.phases[0]])
+        self._tracker.permit(path.rule(0), path.manipuland)
         with self._collisions.tolerating(begin):
             route = router.onwards(begin, self._seen(begin))
         if isinstance(route, Unreachable):
@@ -139,7 +139,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         seeds = [*(np.array(posture) for posture in self._described.postures), begin, self.arm.home]
         approached = True
         for route in search.routes(seeds, attempts, rng):
-            first = path.rules[path.phases[int(route.legs[0])]].opening
+            first = path.rule(int(route.legs[0])).opening
             way = self._free_way(begin, route.joints[0], max(opening, first), until, rng)
             if way is not None:
                 return self._scheduler.trajectory([*free_way(way, opening, first), *legs_of(route, path, first)])
@@ -152,7 +152,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         self, begin: FloatArray, end: FloatArray, opening: float, until: float, rng: np.random.Generator
     ) -> FloatArray | None:
         """Corners ``(k, dof)`` of a way on which nothing is touched but what is touched where it begins."""
-        self._tracker.permit(PhaseRule(1.0, opening, Contacts.NONE))
+        self._tracker.permit(PhaseRule(1.0, opening, Contacts.NONE), None)
         with self._collisions.tolerating(begin):
             return joint_path(
                 begin,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated
 
 import numpy as np
@@ -73,7 +74,7 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
     ) -> JointTrajectory | Unreachable:
         """Lift a path; attempts, seconds and chance play no part."""
         start, opening = self._where(state)
-        first = path.rules[path.phases[0]].opening
+        first = path.rule(0).opening
         path = starting_from(path, start, PhaseRule(self.options.approach_speed, first, Contacts.NONE))
         joints = self._joints_at(path)
         if isinstance(joints, Unreachable):
@@ -105,10 +106,10 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
 
     def _legs(self, path: GripperPath, opening: float) -> Iterator[_Leg | None]:
         """The legs that move anything."""
-        openings = np.array([opening, *(path.rules[phase].opening for phase in path.phases)])
+        openings = np.array([opening, *(path.rule(leg).opening for leg in range(len(path.phases)))])
         knots = np.column_stack([path.poses, openings])
-        for start, end, phase in zip(knots, knots[1:], path.phases, strict=False):
-            yield self._leg(start, end - start, phase, path.rules[phase])
+        for leg, (start, end) in enumerate(pairwise(knots)):
+            yield self._leg(start, end - start, path.phases[leg], path.rule(leg))
 
     def _leg(self, start: FloatArray, step: FloatArray, phase: Phase, rule: PhaseRule) -> _Leg | None:
         """A leg at the speeds that rule and joints allow, or None where nothing moves."""

@@ -61,7 +61,7 @@ class Router:
 
     def permit(self, row: int) -> None:
         """Let happen what may at a pose of the path."""
-        self._tracker.permit(self._rule(int(self._line.legs[row])))
+        self._tracker.permit(self._rule(int(self._line.legs[row])), self._path.manipuland)
 
     def through(self, q: FloatArray, anchor: int, yaw: float, stride: int) -> Route | Unreachable:
         """The route that has given joint values at one of its poses.
@@ -108,7 +108,7 @@ class Router:
         tracks, rows = [], []
         for leg, stretch in self._stretches(begin + 1):
             looked_at = _thinned(stretch, stride)
-            self._tracker.permit(self._rule(leg))
+            self._tracker.permit(self._rule(leg), self._path.manipuland)
             poses = line.poses[looked_at]
             if stretch[0] <= self._last:
                 track = self._tracker.follow(q, poses, stride)
@@ -129,7 +129,7 @@ class Router:
         inside = np.arange(begin - 1, self.gate - 1, -1)
         for leg, stretch in groupby(inside.tolist(), lambda row: int(self._line.legs[row + 1])):
             looked_at = _thinned(np.array(list(stretch)), stride)
-            self._tracker.permit(self._rule(leg))
+            self._tracker.permit(self._rule(leg), self._path.manipuland)
             track = self._tracker.follow(q, line.poses[looked_at], stride)
             if not track.complete:
                 return self._unreachable(track, int(looked_at[len(track.joints)]))
@@ -138,7 +138,7 @@ class Router:
             q = track.joints[-1]
         outside = np.arange(min(begin, self.gate))
         outside = outside[line.poses[outside, 0] >= ENTERED_FROM][::-stride]
-        self._tracker.permit(self._rule(0))
+        self._tracker.permit(self._rule(0), self._path.manipuland)
         entry = self._tracker.leave(q, line.poses[outside], float(line.poses[min(begin, self.gate), 0]), stride)
         tracks.append(entry)
         rows.append(outside[: len(entry.joints)])
@@ -151,7 +151,7 @@ class Router:
             yield leg, np.array(list(stretch))
 
     def _rule(self, leg: int) -> PhaseRule:
-        return self._path.rules[self._path.phases[leg]]
+        return self._path.rule(leg)
 
     def _is_out(self, track: Track, leg: int, stride: int) -> bool:
         """Whether a leg that ends early has led far enough out of the shelf, as far as one can tell."""

@@ -48,7 +48,7 @@ def legs_of(route: Route, path: GripperPath, opening: float) -> Iterator[Stretch
     begin = 0
     for leg in dict.fromkeys(route.legs.tolist()):
         end = int(np.flatnonzero(route.legs == leg)[-1])
-        rule = path.rules[path.phases[leg]]
+        rule = path.rule(leg)
         rows = slice(begin, end + 1)
         openings = np.linspace(opening, rule.opening, end + 1 - begin)
         if end > begin:

@@ -69,14 +69,15 @@ class Tracker:
         self._heights = np.array([item.shape.height for item in scene.objects])
         self._obstacles = np.empty((0, 4))
 
-    def permit(self, rule: PhaseRule) -> None:
+    def permit(self, rule: PhaseRule, manipuland: str | None) -> None:
         """Let the fingers be open and objects be touched as a rule has it."""
         self._collisions.open(self._closed + max(0.0, rule.opening - self._least) / 2.0)
         match rule.contacts:
             case Contacts.OBJECTS:
                 touched = range(len(self._scene.objects))
-            case Contacts.TARGET:
-                touched = range(self._scene.target_index, self._scene.target_index + 1)
+            case Contacts.MANIPULAND if manipuland is not None:
+                row = self._scene.index(manipuland)
+                touched = range(row, row + 1)
             case _:
                 touched = range(0)
         self._collisions.allow(touched)

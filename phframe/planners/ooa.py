@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from phframe.core import Plan, Planner, Task
-from phframe.pushing.clear import Clearing
-from phframe.pushing.options import PushingOptions
+from phframe.pushing import Clearing, PushingOptions
 
 SINGLE_OBJECTS = 0.01
 """A radius (m) at which no two objects are in one component."""

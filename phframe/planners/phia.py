@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from phframe.core import FloatArray, Plan, Planner, Task
-from phframe.pushing.clear import Clearing
-from phframe.pushing.deviation import Deviation
-from phframe.pushing.options import PushingOptions
-from phframe.pushing.persistence import usable_radii
+from phframe.pushing import Clearing, Deviation, PushingOptions, usable_radii
 
 
 class PHIA(Planner[PushingOptions]):

@@ -1,1 +1,50 @@
-"""The paper's geometry: corridor, persistence, grouping, sweep, reach. What planners are made of."""
+"""The paper's method: corridor, persistence, grouping, sweeps, grasp, and the goal to retrieve.
+
+This is the public list: what planners, phframe's own and those of plugins, are made of.
+"""
+
+from phframe.pushing.clearing import ChooseRadius, Clearing
+from phframe.pushing.corridor import Corridor, corridor_half_width, find_corridor
+from phframe.pushing.deviation import Deviation
+from phframe.pushing.grasp import Grasp, grasp_action
+from phframe.pushing.grouping import Rectangle, bounding_rectangle, closest_component
+from phframe.pushing.options import PushingOptions
+from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
+from phframe.pushing.push_decision import PushDecision
+from phframe.pushing.push_problem import PushProblem
+from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, is_unchanged
+from phframe.pushing.pushing import Pushing
+from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
+from phframe.pushing.sweep import Sweep, push_action
+from phframe.pushing.sweep_generator import SweepGenerator
+
+__all__ = [
+    "UNCHANGED",
+    "ChooseRadius",
+    "Clearing",
+    "Corridor",
+    "Deviation",
+    "Grasp",
+    "Proposal",
+    "PushDecision",
+    "PushProblem",
+    "PushSearch",
+    "Pushing",
+    "PushingOptions",
+    "Rectangle",
+    "Retrieve",
+    "RetrieveOptions",
+    "Sweep",
+    "SweepGenerator",
+    "bounding_rectangle",
+    "closest_component",
+    "corridor_half_width",
+    "find_corridor",
+    "grasp_action",
+    "is_cleared",
+    "is_unchanged",
+    "persistent_radii",
+    "push_action",
+    "usable_radii",
+    "usable_threshold",
+]

@@ -3,14 +3,59 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
-from phframe.core import ArmShape, Corridor, FloatArray, Infeasible, Scene, Shelf
+from phframe.core import ArmShape, FloatArray, Floats, Infeasible, Scene, Shelf, Value, rotation_matrix
 
 AUTO_CLEARANCE = 0.004
 """Left on either side (m) when the half-width is derived from the arm."""
+Side = Literal["north", "south"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Corridor(Value):
+    """The strip that must be empty before the target can be reached (path region, Algorithm 1).
+
+    The corridor frame has its origin at a mouth corner and its x axis along the strip.
+
+    Attributes:
+        origin: ``(2,)`` of the corridor frame in the shelf frame (m).
+        angle: Of the corridor frame's x axis (rad): the incidence angle phi, positive towards the north.
+        axis: y of the strip's centre line in the corridor frame (m).
+        half_width: Of the strip, w (m).
+        start: x of the gripper in the corridor frame, where the strip begins (m).
+        end: x of the target in the corridor frame, where it ends (m).
+        beside: The side wall the target is close to, or None where the strip is straight.
+    """
+
+    origin: Floats
+    angle: float
+    axis: float
+    half_width: float
+    start: float
+    end: float
+    beside: Side | None = None
+
+    def __post_init__(self) -> None:
+        self._freeze("origin")
+
+    def to_local(self, points: FloatArray) -> FloatArray:
+        """Points ``(..., 2)`` of the shelf frame in the corridor frame."""
+        return np.asarray((points - self.origin) @ rotation_matrix(self.angle))
+
+    def to_shelf(self, points: FloatArray) -> FloatArray:
+        """Points ``(..., 2)`` of the corridor frame in the shelf frame."""
+        return np.asarray(points @ rotation_matrix(self.angle).T + self.origin)
+
+    def contains(self, points: FloatArray) -> NDArray[np.bool_]:
+        """Mask ``(n,)`` of the centres ``(n, 2)``, in the shelf frame, that lie in the strip."""
+        local = self.to_local(points)
+        ahead = (local[:, 0] >= self.start) & (local[:, 0] < self.end)
+        return np.asarray(ahead & (np.abs(local[:, 1] - self.axis) <= self.half_width))
 
 
 def corridor_half_width(setting: float | Literal["auto"], scene: Scene, arm: ArmShape) -> float:

@@ -2,9 +2,38 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from phframe.core import FloatArray, IntArray, Rectangle
+from phframe.core import FloatArray, Floats, IntArray, Value
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rectangle(Value):
+    """The smallest axis-parallel rectangle around a component's centres (CRCCC, Algorithm 2), in the corridor frame.
+
+    Attributes:
+        lower: ``(2,)`` least x and y (m).
+        upper: ``(2,)`` greatest x and y (m).
+    """
+
+    lower: Floats
+    upper: Floats
+
+    def __post_init__(self) -> None:
+        self._freeze("lower", "upper")
+
+    @property
+    def center(self) -> FloatArray:
+        """``(2,)`` in the corridor frame (m)."""
+        return (self.lower + self.upper) / 2.0
+
+    @property
+    def corners(self) -> FloatArray:
+        """``(4, 2)`` counter-clockwise in the corridor frame (m)."""
+        (x0, y0), (x1, y1) = self.lower, self.upper
+        return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
 
 
 def closest_component(local: FloatArray, labels: IntArray, axis: float) -> IntArray:

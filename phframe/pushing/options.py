@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -9,6 +10,9 @@ from pydantic import Field
 from phframe.core import Options
 
 Speed = Annotated[float, Field(gt=0.0, le=2.0)]
+Clearance = Annotated[float, Field(ge=0.0, le=0.1)]
+ROUNDING = 1e-9
+"""Of angles (rad): one that is at its limit but for rounding is within it."""
 
 
 class PushingOptions(Options):
@@ -23,6 +27,13 @@ class PushingOptions(Options):
         insert_speed: Going in and out (m/s).
         sweep_speed: Sweeping (m/s).
         reach_speed: Reaching for the target and drawing it out (m/s).
+        wall_clearance: Kept between the sweeping arm and the walls (m).
+        lane_clearance: Kept between the arm going in and the component it goes in beside (m).
+        target_clearance: Least distance of the sweeping fingertip from the target's centre (radii).
+        max_tilt: Greatest tilt of the sweeping arm against the corridor (rad); 0: the paper's sweeps.
+        neighbour_clearance: Kept between the reaching arm and walls and objects (m).
+        max_grasp_turn: Greatest deviation of the reaching gripper from the corridor's axis (rad).
+        withdrawal: How far outside the mouth the whole target is drawn (m).
     """
 
     half_width: Annotated[float, Field(gt=0.0, le=1.0)] | Literal["auto"] = 0.12
@@ -33,3 +44,10 @@ class PushingOptions(Options):
     insert_speed: Speed = 0.25
     sweep_speed: Speed = 0.2
     reach_speed: Speed = 0.25
+    wall_clearance: Clearance = 0.002
+    lane_clearance: Clearance = 0.005
+    target_clearance: Annotated[float, Field(ge=1.0, le=10.0)] = 1.2
+    max_tilt: Annotated[float, Field(ge=0.0, le=math.pi / 4.0)] = 0.5236
+    neighbour_clearance: Clearance = 0.002
+    max_grasp_turn: Annotated[float, Field(ge=0.0, le=math.pi / 4.0)] = 0.2618
+    withdrawal: Annotated[float, Field(gt=0.0, le=1.0)] = 0.10

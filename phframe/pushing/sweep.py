@@ -1,113 +1,67 @@
-"""The pushing action (Algorithm 3), and what to do where the paper's sweep does not fit."""
+"""A sweep (Algorithm 3) in numbers, and as an action."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
-from phframe.core import Corridor, FloatArray
-from phframe.geometry.arm_view import ArmView
-from phframe.pushing.deviation import Deviation
-from phframe.pushing.grouping import bounding_rectangle
-from phframe.pushing.reach import LEAST_AHEAD
-from phframe.pushing.tilted_sweep import Component, Deviations, Direction, Push, TiltedSweep
-
-TILTS = tuple(math.radians(degrees) for degrees in (0.0, 10.0, -10.0, 20.0, -20.0, 30.0, -30.0))
-"""Of the arm against the corridor, the way it pushes, tried in this order (rad)."""
+from phframe.core import Action, Contacts, FloatArray, GripperPath, Phase, PhaseRule
+from phframe.pushing.corridor import Corridor
+from phframe.pushing.options import PushingOptions
 
 
-class SweepGeometry:
-    """Sweeps for one component in one corridor, by one arm.
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """A pushing action in numbers (Algorithm 3), in the corridor frame.
 
-    Args:
-        corridor: The corridor.
-        members: Centres ``(k, 2)`` of the component in the corridor frame (m).
-        radius: The largest radius among them (m).
-        target_radius: Of the target (m).
-        view: The arm in the shelf, fingers closed.
+    Attributes:
+        direction: +1 bottom to top (towards the north), -1 top to bottom.
+        depth: x at which the fingertip sweeps (m).
+        lane: y at which it begins to (m).
+        end: y at which it ends (m).
+        entry: How far the arm goes straight in before it sweeps (m).
+        exit: How far it draws straight out afterwards (m).
+        tilt: Of the arm against the corridor (rad); the paper's sweeps have none.
     """
 
-    def __init__(
-        self, corridor: Corridor, members: FloatArray, radius: float, target_radius: float, view: ArmView
-    ) -> None:
-        self._corridor, self._shelf, self._view = corridor, view.shelf, view
-        self._radius, self._target_radius = radius, target_radius
-        self.rectangle = bounding_rectangle(members)
-        self._component = Component(members, self.rectangle, radius)
+    direction: Literal[1, -1]
+    depth: float
+    lane: float
+    end: float
+    entry: float
+    exit: float
+    tilt: float = 0.0
 
-    def pushes(self) -> Iterator[Push]:
-        """The sweeps that fit, best first.
-
-        In each direction, the paper's before the other, the one that clears with the least tilt and rams nothing on its
-        way in; where there is none, one that clears all the same; then those that fit at the least tilt but do not clear.
-        """
-        direction = self._direction()
-        other: Direction = -1 if direction == 1 else 1
-        second_best: list[Push] = []
-        third_best: list[Push] = []
-        for way, deviations in ((direction, ()), (other, (self._why_other(other),))):
-            pushes = list(_until_one_clears(self._tilted(way, deviations)))
-            if pushes and _is_best(pushes[-1]):
-                yield pushes[-1]
-            else:
-                second_best += [push for push in pushes if push.clears][:1]
-            third_best += [push for push in pushes[:1] if not push.clears]
-        yield from second_best
-        for push in third_best:
-            yield replace(push, deviations=(*push.deviations, Deviation.NOT_CLEARING))
-
-    def _tilted(self, direction: Direction, deviations: Deviations) -> Iterator[Push]:
-        for lean in TILTS if self._has_room(direction) else TILTS[:1]:
-            tilt = lean * direction
-            if math.cos(self._corridor.angle + tilt) < LEAST_AHEAD:
-                continue
-            settled = (*deviations, Deviation.TILTED) if tilt else deviations
-            sweep = TiltedSweep(
-                self._corridor,
-                self._component,
-                self._view,
-                self._target_radius,
-                direction=direction,
-                tilt=tilt,
-            )
-            push = sweep.push(settled)
-            if push is not None:
-                yield push
-
-    def _has_room(self, direction: Direction) -> bool:
-        """Whether there is room for the members outside the corridor, at any tilt: if not, nothing clears."""
-        corridor, members = self._corridor, self._component.centers
-        edge = corridor.axis + direction * corridor.half_width
-        across = corridor.to_shelf(np.column_stack([members[:, 0], np.full(len(members), edge)]))[:, 1]
-        return bool(((across > self._radius) & (across < self._shelf.width - self._radius)).all())
-
-    def _direction(self) -> Direction:
-        """The paper's: towards the side of the corridor's centre line on which the rectangle lies."""
-        corridor, rectangle = self._corridor, self.rectangle
-        offset = float(rectangle.center[1]) - corridor.axis
-        if offset == 0.0:
-            middle = corridor.to_local(np.array([self._shelf.depth / 2.0, self._shelf.width / 2.0]))
-            return -1 if rectangle.center[1] <= middle[1] else 1
-        return 1 if offset > 0.0 else -1
-
-    def _why_other(self, direction: Direction) -> Deviation:
-        """Why to push in this direction, which is not the paper's."""
-        corridor, rectangle = self._corridor, self.rectangle
-        reach = corridor.half_width - self._radius
-        spans = rectangle.lower[1] <= corridor.axis - reach and rectangle.upper[1] >= corridor.axis + reach
-        from_nearer = direction == (1 if corridor.to_shelf(rectangle.center)[1] <= self._shelf.width / 2.0 else -1)
-        return Deviation.SPANS_CORRIDOR if spans and from_nearer else Deviation.OTHER_DIRECTION
+    @property
+    def waypoints(self) -> FloatArray:
+        """``(4, 2)`` fingertip positions: before the mouth, inserted, swept, out (m)."""
+        ahead = np.array([math.cos(self.tilt), math.sin(self.tilt)])
+        inserted, swept = np.array([self.depth, self.lane]), np.array([self.depth, self.end])
+        return np.array([inserted - self.entry * ahead, inserted, swept, swept - self.exit * ahead])
 
 
-def _until_one_clears(pushes: Iterator[Push]) -> Iterator[Push]:
-    for push in pushes:
-        yield push
-        if _is_best(push):
-            return
+def push_action(
+    corridor: Corridor, sweep: Sweep, moves: tuple[str, ...], closed: float, options: PushingOptions
+) -> Action:
+    """A sweep as an action in the shelf frame: in, across, straight out, fingers closed, at one yaw.
 
-
-def _is_best(push: Push) -> bool:
-    return push.clears and not push.rams
+    Args:
+        corridor: In whose frame the sweep is given.
+        sweep: The sweep.
+        moves: Ids of the objects it means to move.
+        closed: Distance between the closed fingers (m).
+        options: For the speeds.
+    """
+    positions = corridor.to_shelf(sweep.waypoints)
+    poses = np.column_stack([positions, np.full(len(positions), corridor.angle + sweep.tilt)])
+    insert = PhaseRule(options.insert_speed, closed, Contacts.OBJECTS)
+    rules = {
+        Phase.INSERT: insert,
+        Phase.SWEEP: PhaseRule(options.sweep_speed, closed, Contacts.OBJECTS),
+        Phase.RETREAT: insert,
+    }
+    path = GripperPath(poses, (Phase.INSERT, Phase.SWEEP, Phase.RETREAT), rules)
+    return Action(f"sweep {'north' if sweep.direction == 1 else 'south'}: {', '.join(moves)}", path, moves)

@@ -8,18 +8,18 @@ from typing import Literal
 
 import numpy as np
 
-from phframe.core import MOUTH_CLEARANCE, Corridor, FloatArray, Rectangle, Sweep, rotation_matrix
+from phframe.core import MOUTH_CLEARANCE, FloatArray, rotation_matrix
 from phframe.geometry.arm_view import ArmView
+from phframe.geometry.straight_motion import distances_on_way_in
+from phframe.pushing.corridor import Corridor
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.reach import distances_on_way_in
+from phframe.pushing.grouping import Rectangle
+from phframe.pushing.options import PushingOptions
+from phframe.pushing.sweep import Sweep
 
 Direction = Literal[1, -1]
 Deviations = tuple[str, ...]
 
-LANE_CLEARANCE = 0.005
-"""Between the arm going in and the rectangle (m)."""
-TARGET_CLEARANCE = 1.2
-"""The fingertip comes no nearer to the target's centre than this many radii."""
 ENGAGEMENT = 0.9
 """A fingertip short of a centre by more than this many radii slips off ahead of it."""
 ROUNDING = 1e-6
@@ -74,6 +74,7 @@ class TiltedSweep:
         target_radius: Of the target (m).
         direction: Of the push.
         tilt: Of the arm against the corridor (rad).
+        options: For the clearances.
     """
 
     def __init__(
@@ -85,10 +86,12 @@ class TiltedSweep:
         *,
         direction: Direction,
         tilt: float,
+        options: PushingOptions,
     ) -> None:
         self._corridor, self._component, self._shelf = corridor, component, view.shelf
         self._direction, self._tilt = direction, tilt
-        self._keep_off = TARGET_CLEARANCE * target_radius
+        self._keep_off = options.target_clearance * target_radius
+        self._lane_clearance = options.lane_clearance
         self._arm = view.silhouette(tilt)
         self._front = view.silhouette(corridor.angle + tilt).front
         self._walls = view.walls(corridor.angle + tilt)
@@ -138,7 +141,7 @@ class TiltedSweep:
         """Beside the rectangle, on the side away from the push."""
         rectangle, radius = self._component.rectangle, self._component.radius
         nearest, farthest = rectangle.lower[0] - radius - depth, rectangle.upper[0] + radius - depth
-        beside = self._arm.widest_side(nearest, farthest, self._direction) + radius + LANE_CLEARANCE
+        beside = self._arm.widest_side(nearest, farthest, self._direction) + radius + self._lane_clearance
         return float(rectangle.lower[1] - beside if self._direction == 1 else rectangle.upper[1] + beside)
 
     def _lane_past_target(self) -> float:

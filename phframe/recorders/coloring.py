@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from phframe.core import Condition, Decision, Scene, State
+from phframe.core import Condition, Scene, State
+from phframe.pushing import PushDecision
 from phframe.recorders import palette
 
 
-def components_of(decision: Decision) -> dict[str, int]:
+def components_of(decision: PushDecision) -> dict[str, int]:
     """The component of each member, by id; empty where there are none."""
     if decision.labels is None:
         return {}

@@ -7,8 +7,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import rerun as rr
 
-from phframe.core import Action, Corridor, Decision, FloatArray, GripperPath, Phase, Scene, State, Step
+from phframe.core import Action, FloatArray, GripperPath, Phase, Scene, State, Step
 from phframe.core.topology import FLOAT32_SLACK
+from phframe.pushing import Corridor, PushDecision
 from phframe.recorders import palette
 from phframe.recorders.filling import filling
 from phframe.recorders.stream import Stream
@@ -24,7 +25,7 @@ PUSHES = (Phase.SWEEP, Phase.WITHDRAW)
 
 def log_decision(stream: Stream, scene: Scene, step: Step) -> None:
     """Draw the decision behind a step; whatever it does not have is wiped off."""
-    decision = step.decision
+    decision = PushDecision.of(step.decision)
     height = max(item.shape.height for item in scene.objects) + ABOVE
     _log_corridor(stream, decision.corridor)
     links, colors = _links(scene, decision, step.before)
@@ -69,7 +70,7 @@ def _slab(corridor: Corridor) -> rr.Boxes3D:
     )
 
 
-def _links(scene: Scene, decision: Decision, state: State) -> tuple[list[FloatArray], list[palette.Color]]:
+def _links(scene: Scene, decision: PushDecision, state: State) -> tuple[list[FloatArray], list[palette.Color]]:
     """A line, and its colour, for every two members of a component no farther apart than the radius chosen."""
     if decision.labels is None or decision.radius is None:
         return _no_lines(), []
@@ -84,7 +85,7 @@ def _near(points: FloatArray, radius: float) -> Iterator[tuple[int, int]]:
     return zip(first[near].tolist(), second[near].tolist(), strict=True)
 
 
-def _rectangle(decision: Decision) -> list[FloatArray]:
+def _rectangle(decision: PushDecision) -> list[FloatArray]:
     if decision.rectangle is None or decision.corridor is None:
         return _no_lines()
     corners = decision.rectangle.corners

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from phframe.core import Condition, Corridor, Decision, Episode, Motion, Plan, Scene, Setup, Status, Step
+from phframe.core import Condition, Episode, Motion, Plan, Scene, Setup, Status, Step
+from phframe.pushing import Corridor, PushDecision
 
 
 def opening_line(scene: Scene, setup: Setup) -> str:
@@ -25,7 +26,8 @@ def plan_line(plan: Plan, number: int) -> str:
 
 def decision_line(step: Step, number: int) -> str:
     """An action and why it was chosen."""
-    parts = [*_crowd(step.decision), *_grouping(step.decision)]
+    decision = PushDecision.of(step.decision)
+    parts = [*_crowd(decision), *_grouping(decision)]
     return f"{number}. {step.action.name}" + (f" ({'; '.join(parts)})" if parts else "")
 
 
@@ -45,14 +47,14 @@ def ending_line(episode: Episode) -> str:
 
 def decision_page(step: Step, scene: Scene, number: int, done: bool) -> str:
     """The same at length, as Markdown, with the outcome once the action is ``done``."""
-    decision = step.decision
+    decision = PushDecision.of(step.decision)
     rows = [
         ("corridor", _corridor(decision.corridor)),
-        ("in the way", ", ".join(decision.members)),
+        ("obstacles", ", ".join(decision.members)),
         ("persistent radii", _millimetres(decision.persistent_radii)),
         ("chosen radius", _radius(decision)),
         ("chosen component", ", ".join(decision.chosen)),
-        ("settled by phframe", ", ".join(decision.deviations)),
+        ("deviations", ", ".join(decision.deviations)),
         ("outcome", ", ".join(_outcome(step, scene)) if done else ""),
     ]
     told = "\n".join(f"- **{name}**: {value}" for name, value in rows if value)
@@ -76,12 +78,12 @@ def went_wrong(step: Step, scene: Scene) -> bool:
     return bool(motion.wall_contacts or not motion.complete or _fallen(step, scene))
 
 
-def _crowd(decision: Decision) -> Iterable[str]:
+def _crowd(decision: PushDecision) -> Iterable[str]:
     if decision.corridor is not None:
-        yield f"{len(decision.members) or 'nothing'} in the way"
+        yield f"{len(decision.members) or 'nothing'} obstacles"
 
 
-def _grouping(decision: Decision) -> Iterable[str]:
+def _grouping(decision: PushDecision) -> Iterable[str]:
     if decision.persistent_radii:
         yield f"radii {_millimetres(decision.persistent_radii)}"
     if decision.radius is not None:
@@ -95,14 +97,14 @@ def _corridor(corridor: Corridor | None) -> str:
     return f"{shape}, {2000 * corridor.half_width:.0f} mm wide"
 
 
-def _radius(decision: Decision) -> str:
+def _radius(decision: PushDecision) -> str:
     if decision.radius is None:
         return ""
     groups = len(set(components)) if (components := _labels(decision)) else 0
     return f"{1000 * decision.radius:.0f} mm" + (f", {_plural(groups, 'component')}" if groups else "")
 
 
-def _labels(decision: Decision) -> list[int]:
+def _labels(decision: PushDecision) -> list[int]:
     return [] if decision.labels is None else [int(label) for label in decision.labels]
 
 

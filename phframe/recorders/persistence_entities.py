@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
-from phframe.core import Decision, FloatArray
+from phframe.core import FloatArray
+from phframe.pushing import PushDecision
 from phframe.recorders import palette
 from phframe.recorders.stream import Stream
 
@@ -15,7 +16,7 @@ STEP = 0.05
 """Between two marks of the scale (m)."""
 
 
-def log_persistence(stream: Stream, decision: Decision) -> None:
+def log_persistence(stream: Stream, decision: PushDecision) -> None:
     """Bars by length, the persistent ones in blue, and the radius chosen as a line across; wiped off without any."""
     finite, infinite = _lengths(decision)
     span = _span(finite, decision.radius)
@@ -30,7 +31,7 @@ def log_persistence(stream: Stream, decision: Decision) -> None:
     stream.put("persistence/note", _captions([[0.5, HEIGHT / 2]] * len(note), note, palette.CAPTION))
 
 
-def _lengths(decision: Decision) -> tuple[FloatArray, int]:
+def _lengths(decision: PushDecision) -> tuple[FloatArray, int]:
     """The finite deaths (m), and how many components never die."""
     if decision.diagram is None:
         return np.zeros(0), 0

@@ -10,6 +10,7 @@ import numpy as np
 import rerun as rr
 
 from phframe.core import Episode, Plan, Scene, Setup, State, Step
+from phframe.pushing import PushDecision
 from phframe.recorders import (
     arm_entities,
     decision_entities,
@@ -103,8 +104,9 @@ class RerunRecorder(Observer):
 
     def _show_decision(self, stream: Stream, step: Step) -> None:
         decision_entities.log_decision(stream, self._scene, step)
-        persistence_entities.log_persistence(stream, step.decision)
-        series.log_decision(stream, step.decision)
+        decision = PushDecision.of(step.decision)
+        persistence_entities.log_persistence(stream, decision)
+        series.log_decision(stream, decision)
         self._color(stream, step, step.before)
         self._say(stream, narration.decision_line(step, self._actions), "INFO")
         self._show_page(stream, step, done=False)
@@ -123,7 +125,7 @@ class RerunRecorder(Observer):
 
     def _write_frames(self, stream: Stream, step: Step, frames: Frames) -> None:
         self._log_motion(stream, frames)
-        series.log_motion(stream, self._scene, step.decision.corridor, frames, self._actions)
+        series.log_motion(stream, self._scene, PushDecision.of(step.decision).corridor, frames, self._actions)
         for frame in frames.falls:
             stream.at(float(frames.times[frame]), self._actions)
             self._color(stream, step, frames.states[frame])
@@ -140,8 +142,8 @@ class RerunRecorder(Observer):
         arm_entities.log_motion(stream, self._arm, self._bodies, frames, self._actions)
 
     def _color(self, stream: Stream, step: Step, state: State) -> None:
-        components = components_of(step.decision)
-        object_entities.log_colors(stream, self._scene, state, components, step.decision.chosen)
+        decision = PushDecision.of(step.decision)
+        object_entities.log_colors(stream, self._scene, state, components_of(decision), decision.chosen)
 
     def _show_page(self, stream: Stream, step: Step, *, done: bool) -> None:
         page = narration.decision_page(step, self._scene, self._actions, done)

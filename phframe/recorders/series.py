@@ -6,7 +6,8 @@ import numpy as np
 import rerun as rr
 from rerun.components import AggregationPolicy, InterpolationMode
 
-from phframe.core import Corridor, Decision, FloatArray, Plan, Scene, State, Step
+from phframe.core import FloatArray, Plan, Scene, State, Step
+from phframe.pushing import Corridor, PushDecision
 from phframe.recorders import palette
 from phframe.recorders.frames import Frames, changes
 from phframe.recorders.stream import Stream
@@ -53,7 +54,7 @@ def log_planning(stream: Stream, plan: Plan) -> None:
         stream.put(entity, rr.Scalars(1000.0 * seconds))
 
 
-def log_decision(stream: Stream, decision: Decision) -> None:
+def log_decision(stream: Stream, decision: PushDecision) -> None:
     """The persistent radii, as many values at one moment, and the one chosen."""
     for radius in decision.persistent_radii:
         stream.put(PERSISTENT_RADII, rr.Scalars(1000.0 * radius))

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from phframe.core import Episode, NotInstalledError, Scene, Setup, State, Step
+from phframe.pushing import PushDecision
 from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.coloring import components_of
 from phframe.recorders.film import Film, format_of, refuse_unwritable
@@ -69,7 +70,7 @@ class VideoRecorder(Observer):
         self._actions += 1
         moments = chain(frames, [(step.motion.duration, step.after)])
         title = f"{self._actions}. {step.action.name}"
-        self._shooting.show(self._seconds, moments, components_of(step.decision), title)
+        self._shooting.show(self._seconds, moments, components_of(PushDecision.of(step.decision)), title)
         self._seconds += step.motion.duration
 
     def finished(self, episode: Episode) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 from phframe.core.arm import ArmModel
 from phframe.core.errors import NotInstalledError, PluginError
+from phframe.core.goal import Goal
 from phframe.core.physics import Physics
 from phframe.core.planner import Planner
 from phframe.core.suite import SceneSuite
@@ -26,6 +27,7 @@ INTERFACES: Mapping[Kind, type] = MappingProxyType(
         Kind.ARM: ArmModel,
         Kind.TOPOLOGY: TopologyEngine,
         Kind.SCENES: SceneSuite,
+        Kind.GOAL: Goal,
     }
 )
 """What the classes of each kind are subclasses of; kinds that are not here have no interface."""

@@ -87,12 +87,22 @@ def _checked(answer: object) -> Iterator[Extension]:
     for extension in answer:
         if not isinstance(extension, Extension):
             raise PluginError(f"phframe_extensions() returned {extension!r} among its extensions")
-        if extension.api_version > API_VERSION:
-            raise PluginError(
-                f"{extension.kind} {extension.name!r} is for version {extension.api_version} of phframe's interfaces;"
-                f" this phframe has version {API_VERSION}: upgrade phframe"
-            )
+        if extension.api_version != API_VERSION:
+            raise PluginError(_other_version(extension))
         yield extension
+
+
+def _other_version(extension: Extension) -> str:
+    """What to do about an extension for another version of the interfaces."""
+    remedy = (
+        "upgrade phframe"
+        if extension.api_version > API_VERSION
+        else f"docs/migration.md says what to change in it, and that its api_version is then {API_VERSION}"
+    )
+    return (
+        f"{extension.kind} {extension.name!r} is for version {extension.api_version} of phframe's interfaces;"
+        f" this phframe has version {API_VERSION}: {remedy}"
+    )
 
 
 def _entry(extension: Extension, distribution: str, version: str) -> Entry:

@@ -25,6 +25,11 @@ class ExecutionWorld(World):
             return super().plan_trajectory(state, action)
         return self._refuse_pose(action) or super().plan_trajectory(state, action)
 
+    def unreachable(self, state: State, action: Action) -> Unreachable | None:
+        """Why the arm cannot carry out an action from a state; None: it can."""
+        planned = self.plan_trajectory(state, action)
+        return planned if isinstance(planned, Unreachable) else None
+
     def _refuse_pose(self, action: Action) -> Unreachable | None:
         """Where the arm's joints cannot take the fingertip, if anywhere."""
         base, way = inverse(self.base_pose.pose), 0.0

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from itertools import repeat
 from multiprocessing import get_context
 from typing import Any
 
@@ -12,17 +14,25 @@ import numpy as np
 from phframe.core import (
     Action,
     ArmShape,
+    ArmState,
     Budget,
+    FloatArray,
+    Goal,
     Motion,
     OptionError,
+    Rejection,
     State,
+    Stop,
+    StopCause,
+    StopReason,
+    SupportsPropagation,
     Task,
     TopologyEngine,
     Transition,
     Unreachable,
     Watch,
 )
-from phframe.core.task import Pair
+from phframe.core.task import Pair, Reach
 from phframe.runtime.world import World, WorldSpec
 
 
@@ -41,23 +51,23 @@ class PlanningWorld(World):
         self._workers = workers
         self._pool: ProcessPoolExecutor | None = None
 
-    def apply(self, state: State, action: Action, watch: Watch | None = None) -> Transition:
+    def apply(self, state: State, action: Action, stop: Stop | None = None, watch: Watch | None = None) -> Transition:
         """What an action makes of a state: a function of the two alone. One that the arm cannot do changes nothing."""
         held = self.physics.restore(state)
         trajectory = self.plan_trajectory(held, action)
         if isinstance(trajectory, Unreachable):
-            return Transition(state, Motion(0.0, stopped=f"unreachable: {trajectory.why}"))
-        motion = self.follow(trajectory, watch)
+            return Transition(state, Motion(0.0, stopped=StopReason(StopCause.UNREACHABLE, unreachable=trajectory)))
+        motion = self.follow(trajectory, watch, stop)
         return Transition(self.physics.observe(), motion)
 
-    def apply_many(self, pairs: Sequence[Pair]) -> list[Transition]:
+    def apply_many(self, pairs: Sequence[Pair], stop: Stop | None = None) -> list[Transition]:
         """``apply`` to many pairs, in their order; the same bits whatever the number of workers."""
         if self._workers == 1 or len(pairs) < 2:
-            return [self.apply(state, action) for state, action in pairs]
+            return [self.apply(state, action, stop) for state, action in pairs]
         if self._pool is None:
             context = get_context("spawn")
             self._pool = ProcessPoolExecutor(self._workers, context, _Worker.begin, (self.spec,))
-        return list(self._pool.map(_Worker.apply, pairs, chunksize=1))
+        return list(self._pool.map(_Worker.apply, pairs, repeat(stop), chunksize=1))
 
     def task(
         self,
@@ -65,23 +75,28 @@ class PlanningWorld(World):
         topology: TopologyEngine[Any],
         rng: np.random.Generator,
         *,
+        goal: Goal[Any],
         arm: ArmShape | None = None,
         budget: Budget = Budget(),  # noqa: B008 - immutable
-        rejected: tuple[Action, ...] = (),
+        rejected: tuple[Rejection, ...] = (),
+        reach: Reach | None = None,
     ) -> Task:
-        """The problem of retrieving the target from a state in this world.
+        """The problem of achieving a goal from a state in this world.
 
         Args:
             start: The state.
             topology: For the planner.
             rng: For the planner.
+            goal: What is to be achieved.
             arm: The one that will carry the plan out; None: this world's.
             budget: What the planner may spend.
-            rejected: Actions that could not be carried out.
+            rejected: Actions that could not be carried out, or came to nothing.
+            reach: Whether the arm that will carry the plan out can follow an action; None: not known.
         """
         return Task(
             scene=self.scene,
             start=start,
+            goal=goal,
             arm=self.arm.shape if arm is None else arm,
             topology=topology,
             apply=self.apply,
@@ -89,7 +104,20 @@ class PlanningWorld(World):
             rng=rng,
             budget=budget,
             rejected=rejected,
+            reach=reach,
+            steered=self.physics if isinstance(self.physics, SupportsPropagation) else None,
+            begin_steering=self._begin_steering,
         )
+
+    def _begin_steering(self, state: State, pose: FloatArray | None) -> Any:
+        """The snapshot of a state in which the arm stands somewhere: a parked one at a pose, or where it is parked."""
+        if state.arm is None:
+            joints = self.arm.home if pose is None and self.by_joints else None
+            arm = ArmState(self.home if pose is None else pose, self.arm.shape.min_opening, joints=joints)
+            state = replace(state, arm=arm)
+        self.physics.restore(state)
+        assert isinstance(self.physics, SupportsPropagation), "asked for only then"
+        return self.physics.snapshot()
 
     def close(self) -> None:
         """Give the engine's memory back and end the workers."""
@@ -109,5 +137,5 @@ class _Worker:
         cls.world = PlanningWorld(spec)
 
     @classmethod
-    def apply(cls, pair: Pair) -> Transition:
-        return cls.world.apply(*pair)
+    def apply(cls, pair: Pair, stop: Stop | None) -> Transition:
+        return cls.world.apply(*pair, stop)

@@ -24,7 +24,7 @@ PLAN_BACKEND = "pymunk"
 """Where plans are made that an engine of joints carries out: many times faster."""
 PLAN_OPTIONS = {"standing_radius": 2.0 / 3.0, "arm_acceleration": 10.0}
 """Of that backend, where an engine in space carries the plans out; see docs/fidelity.md."""
-OPTION_GROUPS = ("planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "scenes")
+OPTION_GROUPS = ("planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "goal", "scenes")
 """Whose options ``solve`` takes."""
 
 
@@ -35,10 +35,11 @@ def solve(
     backend: str = "pymunk",
     arm: str = "planar",
     topology: str = "ripser",
+    goal: str = "retrieve",
     seed: int = 0,
     options: Mapping[str, Mapping[str, Any]] | None = None,
     time_limit: float = 300.0,
-    max_replans: int = 10,
+    max_replans: int = 30,
     tolerance: float = 0.01,
     simulations: int | None = None,
     workers: int = 1,
@@ -55,11 +56,12 @@ def solve(
         backend: Registered name of the physics engine to execute in.
         arm: Registered name of the arm that executes.
         topology: Registered name of the engine for persistence diagrams.
+        goal: Registered name of what is to be achieved.
         seed: Of everything random; the same seed gives the same episode.
         options: By ``planner``, ``backend``, ``arm``, ``plan_backend``, ``plan_arm``, ``topology`` and ``scenes``, then
             by key; values or their text.
         time_limit: Wall time for planning, replans included (s); looked at between simulations.
-        max_replans: How often to plan again where reality differs.
+        max_replans: How often to plan again where reality differs, or an action cannot be carried out.
         tolerance: What counts as differing (m).
         simulations: Simulated actions for planning, replans included; None: no limit.
         workers: Processes for planners that try many actions at once.
@@ -84,10 +86,17 @@ def solve(
         plan_spec = _plan_spec(spec, plan_backend, plan_arm, given)
         search = create(Kind.PLANNER, planner, given["planner"])
         engine = create(Kind.TOPOLOGY, topology, given["topology"])
+        wanted = create(Kind.GOAL, goal, given["goal"])
         believed = replace(plan_spec, scene=disturbance.believed(spec.scene, seed))
         planning = stack.enter_context(PlanningWorld(believed, workers))
         execution = stack.enter_context(ExecutionWorld(spec))
-        used = {"planner": search, "backend": execution.physics, "arm": execution.arm, "topology": engine}
+        used = {
+            "planner": search,
+            "backend": execution.physics,
+            "arm": execution.arm,
+            "topology": engine,
+            "goal": wanted,
+        }
         if plan_spec != spec:
             used |= {"plan_backend": planning.physics, "plan_arm": planning.arm}
         setup = Setup(
@@ -104,7 +113,7 @@ def solve(
             disturbance.model_dump(exclude_defaults=True),
         )
         sensor = Sensor(disturbance, spec.scene, execution.arm.shape, seed)
-        return run_episode(search, engine, planning, execution, setup, loop, observers, sensor)
+        return run_episode(search, engine, planning, execution, wanted, setup, loop, observers, sensor)
 
 
 def _plan_spec(

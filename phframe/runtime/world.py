@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import TracebackType
 from typing import Any, Self
 
@@ -28,6 +28,7 @@ from phframe.core import (
     Settle,
     State,
     Stop,
+    StopCause,
     Trajectory,
     Unreachable,
     Watch,
@@ -36,16 +37,13 @@ from phframe.core import (
     time_path,
     yaw_of,
 )
+from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.registry import Kind, create, load
 
 APPROACH_SPEED = 0.5
 """Of the fingertip outside the shelf, where nothing is in the way (m/s)."""
 RETREAT_SPEED = 0.25
 """Of the fingertip that draws back after a stall (m/s)."""
-LEAST_AHEAD = 0.2
-"""Cosine of the yaw (rad) beyond which an arm that draws back does not leave the shelf."""
-
-
 LEAST_SERVED = 0.7
 """Fraction of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
 MOTION_ATTEMPTS, MOTION_SECONDS = 10, 30.0
@@ -100,13 +98,13 @@ class World:
             self._motion_planner = self.arm.motion_planner(spec.scene, self.base_pose)
         self.motion_planning_time = 0.0
         self.physics: Physics[Any] = backend(spec.scene, self.arm, self.base_pose, options)
-        self._home = _seen_from_above(compose(self.base_pose.pose, self.arm.forward(self.arm.home)))
+        self.home = _seen_from_above(compose(self.base_pose.pose, self.arm.forward(self.arm.home)))
         self._refuse_misfit()
 
     def _refuse_misfit(self) -> None:
         """Refuse an arm that stands in the shelf, or does not reach through it."""
         shelf, arm = self.scene.shelf, self.spec.arm
-        if self._home[0] + self._front(self._home[2]) >= 0.0:
+        if self.home[0] + self._front(self.home[2]) >= 0.0:
             raise IncompatibleError(
                 f"arm {arm!r} at its base pose {self.base_pose} stands in the shelf when it is parked"
             )
@@ -137,13 +135,13 @@ class World:
         return self._motion_planner is not None
 
     def plan_trajectory(self, state: State, action: Action) -> Trajectory | Unreachable:
-        """What to drive to carry out an action from a state: the way to the path's beginning, and the path."""
+        """Plan what to drive to carry out an action from a state: the approach to the path's beginning, and the path."""
         if (refusal := self._refuse_opening(action)) is not None:
             return refusal
         if self._motion_planner is not None:
             return self._plan_joint_trajectory(self._motion_planner, state, action.path)
-        pose = self._home if state.arm is None else state.arm.gripper
-        first = action.path.rules[action.path.phases[0]].opening
+        pose = self.home if state.arm is None else state.arm.gripper
+        first = action.path.rule(0).opening
         path = starting_from(action.path, pose, PhaseRule(APPROACH_SPEED, first, Contacts.NONE))
         opening = self.arm.shape.min_opening if state.arm is None else state.arm.commanded_opening
         return time_path(path, opening, self.arm.force_limit)
@@ -162,19 +160,22 @@ class World:
     def _refuse_opening(self, action: Action) -> Unreachable | None:
         """Why the gripper cannot do an action, if it cannot."""
         shape = self.arm.shape
-        for phase, rule in action.path.rules.items():
+        for leg, phase in enumerate(action.path.phases):
+            rule = action.path.rule(leg)
             if not shape.min_opening - 1e-9 <= rule.opening <= shape.max_opening + 1e-9:
                 span = f"from {shape.min_opening:g} to {shape.max_opening:g} m"
                 return Unreachable(0.0, f"the gripper opens {span}, not to {rule.opening:g} m to {phase}")
         return None
 
-    def follow(self, trajectory: Trajectory, watch: Watch | None = None) -> Motion:
+    def follow(self, trajectory: Trajectory, watch: Watch | None = None, stop: Stop | None = None) -> Motion:
         """Follow a trajectory from where the world is and let things settle.
 
-        After a stall, or at the first touch of a wall, draw straight back.
+        After a stall, or at the first touch of a wall, draw straight back; where another stop was asked for, stand there.
         """
-        motion = self.physics.execute(trajectory, settle=Settle(), stop=Stop(wall=True), watch=watch)
-        if motion.complete:
+        ending = Stop(wall=True) if stop is None else replace(stop, wall=True)
+        motion = self.physics.execute(trajectory, settle=Settle(), stop=ending, watch=watch)
+        asked_for = motion.stopped is not None and motion.stopped.cause is not StopCause.WALL
+        if motion.complete or asked_for:
             return motion
         retreat = self._retreat(self.physics.observe())
         if isinstance(retreat, Unreachable):

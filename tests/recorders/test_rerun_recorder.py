@@ -14,6 +14,7 @@ pytest.importorskip("rerun")
 import rerun as rr
 
 from phframe.core import Condition, InputError, State
+from phframe.pushing import PushDecision
 from phframe.recorders import palette
 from phframe.recorders.rerun_ import RerunRecorder
 from tests.recorders.reading import Recording
@@ -275,8 +276,9 @@ def test_no_global_recording_is_touched(made: Recorded, tmp_path: Path) -> None:
 
 def test_decision_without_anything_and_no_frames(made: Recorded, tmp_path: Path) -> None:
     step = made.episode.steps[0]
+    decision = PushDecision.of(step.decision)
     bare = replace(
-        step, decision=replace(step.decision, corridor=None, diagram=None, labels=None, rectangle=None, radius=None)
+        step, decision=replace(decision, corridor=None, diagram=None, labels=None, rectangle=None, radius=None)
     )
     recorder = RerunRecorder(tmp_path / "bare.rrd")
     recorder.begin(SCENE, SETUP, made.arm)

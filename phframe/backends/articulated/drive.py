@@ -10,7 +10,7 @@ from phframe.backends.articulated.contacts import TouchLog
 from phframe.backends.articulated.force_limiter import ForceLimiter
 from phframe.backends.articulated.world import ArticulatedWorld
 from phframe.backends.contract import first_contacts, force_reason, touch_reason
-from phframe.core import FORCE_WINDOW, JointTrajectory, Motion, Settle, Stop, Trajectory, Watch
+from phframe.core import FORCE_WINDOW, JointTrajectory, Motion, Settle, Stop, StopReason, Trajectory, Watch
 
 SURVEY = 10
 """Control steps between looks at what has left the board."""
@@ -56,7 +56,7 @@ class JointDrive:
         self._tick, self._pressed, self._next_look = 0, 0, 0.0
         self._force = self._lag = 0.0
         self._stalled, self._settled = False, True
-        self._cause: str | None = None
+        self._cause: StopReason | None = None
 
     def run(self, settle: Settle | None) -> Motion:
         """Follow the trajectory, then wait for rest.
@@ -134,7 +134,7 @@ class JointDrive:
         self._lag = lag
         self._stalled = self._stalled or lag > self._stall_lag
 
-    def _reason(self, stop: Stop) -> str | None:
+    def _reason(self, stop: Stop) -> StopReason | None:
         """Why to end early now, if there is a reason."""
         return touch_reason(stop, self._touches.news()) or force_reason(stop, self._force)
 

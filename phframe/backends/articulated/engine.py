@@ -106,7 +106,8 @@ class JointEngine(Protocol):
         delay: How old the place of the fingertip is that ``advance`` tells (s); 0 for most.
 
     Raises:
-        IncompatibleError: If the engine cannot have the arm, or does not know the shape of an object.
+        IncompatibleError: If the engine cannot have the arm.
+        UnknownShapeError: If it has no primitive for the shape of an object.
     """
 
     name: str

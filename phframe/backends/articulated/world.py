@@ -172,7 +172,9 @@ class ArticulatedWorld:
 
     def _refuse_divergence(self, objects: ObjectReading) -> None:
         velocities = objects.velocities
-        if not max(velocities.max(initial=0.0), -velocities.min(initial=0.0)) < self._slow:  # nothing that is not a number is less
+        if (
+            not max(velocities.max(initial=0.0), -velocities.min(initial=0.0)) < self._slow
+        ):  # nothing that is not a number is less
             self._refuse_fast(self._speeds(velocities))
         if (trouble := self.engine.trouble()) is not None:
             raise SimulationDivergedError(f"the simulation diverged: {trouble}")

@@ -69,7 +69,8 @@ def build_model(scene: Scene, arm: ArmModel[Any], base_pose: BasePose, options: 
     """Compile a scene with an arm in it.
 
     Raises:
-        IncompatibleError: If the arm's URDF does not load, or MuJoCo does not know the shape of an object.
+        IncompatibleError: If the arm's URDF does not load.
+        UnknownShapeError: If MuJoCo has no primitive for the shape of an object.
     """
     spec = shelf_spec(scene, options)
     robot = arm_spec(arm, options)

@@ -6,17 +6,17 @@ from typing import Any
 
 import mujoco
 
-from phframe.core import Cylinder, IncompatibleError, Shape
+from phframe.core import Cylinder, Shape, UnknownShapeError
 
 
 def primitive(shape: Shape) -> dict[str, Any]:
     """Type and size of the geom that a shape is, its origin at the centre; MuJoCo wants halves of lengths.
 
     Raises:
-        IncompatibleError: If this engine does not know the shape.
+        UnknownShapeError: If the engine has no primitive for it.
     """
     match shape:
         case Cylinder(radius=radius, height=height):
             return {"type": mujoco.mjtGeom.mjGEOM_CYLINDER, "size": [radius, height / 2.0, 0.0]}
         case _:
-            raise IncompatibleError(f"the MuJoCo backend does not know the shape {shape!r}")
+            raise UnknownShapeError(shape, "the MuJoCo backend")

@@ -39,7 +39,7 @@ def shelf_spec(scene: Scene, options: MujocoOptions) -> Any:
     """The shelf with its objects, each at its place in the scene; no arm yet.
 
     Raises:
-        IncompatibleError: If MuJoCo does not know the shape of an object.
+        UnknownShapeError: If MuJoCo has no primitive for the shape of an object.
     """
     spec = mujoco.MjSpec()
     _set_options(spec.option, options)

@@ -60,7 +60,7 @@ class BodyMaker:
         """An object, at rest.
 
         Raises:
-            IncompatibleError: If this engine does not know its shape.
+            UnknownShapeError: If PyBullet has no primitive for its shape.
         """
         shape = collision_shape(self._client, item.shape)
         place, (w, *xyz) = pose[:3].tolist(), pose[3:].tolist()

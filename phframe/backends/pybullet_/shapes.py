@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from phframe.backends.pybullet_.output_capture import bullet
-from phframe.core import Cylinder, IncompatibleError, Shape
+from phframe.core import Cylinder, Shape, UnknownShapeError
 
 
 def collision_shape(client: int, shape: Shape) -> int:
     """A collision shape of a client, its origin at the centre.
 
     Raises:
-        IncompatibleError: If this engine does not know the shape.
+        UnknownShapeError: If the engine has no primitive for it.
     """
     match shape:
         case Cylinder(radius=radius, height=height):
@@ -19,4 +19,4 @@ def collision_shape(client: int, shape: Shape) -> int:
             )
             return made
         case _:
-            raise IncompatibleError(f"the PyBullet backend does not know the shape {shape!r}")
+            raise UnknownShapeError(shape, "the PyBullet backend")

@@ -57,7 +57,7 @@ def build_shelf(
     """Make the shelf, and the objects that have not spilled at poses ``(n, 7)``.
 
     Raises:
-        IncompatibleError: If PyBullet does not know the shape of an object.
+        UnknownShapeError: If PyBullet has no primitive for the shape of an object.
     """
     maker = BodyMaker(client, options)
     boxes = _boxes(maker, scene.shelf)

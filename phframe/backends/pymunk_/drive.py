@@ -22,7 +22,17 @@ from phframe.backends.pymunk_.gripper import (
 )
 from phframe.backends.pymunk_.state import is_calm, read_state, refuse_divergence, survey
 from phframe.backends.pymunk_.world import ShelfSpace, note_contact, overlap
-from phframe.core import FORCE_WINDOW, FloatArray, GripperTrajectory, InputError, Motion, Settle, Stop, Watch
+from phframe.core import (
+    FORCE_WINDOW,
+    FloatArray,
+    GripperTrajectory,
+    InputError,
+    Motion,
+    Settle,
+    Stop,
+    StopReason,
+    Watch,
+)
 
 SURVEY = 30
 """Steps between looks at what has left the board and whether all is still again: 1/8 s at the default step."""
@@ -68,7 +78,7 @@ class PymunkDrive:
         self._full_impulse = trajectory.force_limit * step * SATURATED
         self._lag = self._force = 0.0
         self._stalled, self._settled = False, True
-        self._cause: str | None = None
+        self._cause: StopReason | None = None
 
     def run(self, settle: Settle | None) -> Motion:
         """Follow the trajectory, then wait for rest."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
+import numpy as np
 import pymunk
 
-from phframe.backends.pymunk_.shapes import half_width
-from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace
+from phframe.backends.pymunk_.world import MovingFinger, ShelfItem, ShelfSpace
 from phframe.core import FloatArray
 
 TOUCH = 5e-4
@@ -49,10 +50,16 @@ def between_fingers(world: ShelfSpace) -> list[ShelfItem]:
 def gripped(world: ShelfSpace, items: Sequence[ShelfItem]) -> ShelfItem | None:
     """Which of some objects both fingers touch, if any does."""
     for item in items:
-        gaps = _gaps(world, item)
-        if gaps and all(gap <= half_width(item.thing.shape) + TOUCH for gap in gaps):
+        gaps = zip(_gaps(world, item), world.arm.fingers, strict=True)
+        if world.arm.fingers and all(gap <= _reach(world, item, finger) + TOUCH for gap, finger in gaps):
             return item
     return None
+
+
+def _reach(world: ShelfSpace, item: ShelfItem, finger: MovingFinger) -> float:
+    """How far an object reaches from its centre towards a finger (m)."""
+    across = world.arm.body.angle + finger.side * math.pi / 2.0 - item.body.angle
+    return item.thing.shape.support(np.array([math.cos(across), math.sin(across)]))
 
 
 def _gaps(world: ShelfSpace, item: ShelfItem) -> list[float]:

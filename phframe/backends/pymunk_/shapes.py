@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pymunk
 
-from phframe.core import Cylinder, IncompatibleError, Shape
+from phframe.core import Cylinder, Shape, UnknownShapeError
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ def footprint(body: pymunk.Body, shape: Shape, mass: float, friction: float) -> 
     Papadopoulos, Planar sliding with dry friction, Wear 143, 1991).
 
     Raises:
-        IncompatibleError: If this engine does not know the shape.
+        UnknownShapeError: If the engine has no primitive for it.
     """
     match shape:
         case Cylinder(radius=radius):
@@ -41,13 +41,4 @@ def footprint(body: pymunk.Body, shape: Shape, mass: float, friction: float) -> 
                 pymunk.Circle(body, radius), mass * radius * radius / 2.0, friction * radius * 2.0 / 3.0, radius
             )
         case _:
-            raise IncompatibleError(f"the pymunk backend does not know the shape {shape!r}")
-
-
-def half_width(shape: Shape) -> float:
-    """Half of the distance (m) between two parallel fingers that touch a shape on either side."""
-    match shape:
-        case Cylinder(radius=radius):
-            return radius
-        case _:
-            raise IncompatibleError(f"the pymunk backend does not know the shape {shape!r}")
+            raise UnknownShapeError(shape, "the pymunk backend")

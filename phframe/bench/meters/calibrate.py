@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from phframe.bench.meters.sweeps import Score, Sweep, compare, outcomes, planned_sweeps, score
+from phframe.bench.meters.sweeps import PlannedSweep, Score, compare, outcomes, planned_sweeps, score
 from phframe.core import State
 from phframe.runtime.solve import PLAN_OPTIONS
 
@@ -79,7 +79,7 @@ class Observed:
         states: What became of each.
     """
 
-    sweeps: Sequence[Sweep]
+    sweeps: Sequence[PlannedSweep]
     states: Sequence[State]
 
     def score(self, values: Values) -> Score:
@@ -129,5 +129,5 @@ def _random(seeds: Sequence[int]) -> Observed:
     return _observed([sweep for sweeps in by_crowd for sweep in sweeps])
 
 
-def _observed(sweeps: Sequence[Sweep]) -> Observed:
+def _observed(sweeps: Sequence[PlannedSweep]) -> Observed:
     return Observed(sweeps, outcomes(sweeps, "mujoco"))

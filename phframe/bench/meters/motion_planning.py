@@ -6,8 +6,7 @@ import time
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
+from phframe.bench.meters.tasks import retrieval_task
 from phframe.core import ArmState, JointTrajectory, Plan, State, Unreachable
 from phframe.registry import Kind, create
 from phframe.runtime.execution_world import ExecutionWorld
@@ -44,7 +43,7 @@ def measure_motion_planning(name: str, backend: str) -> MotionPlanning:
     """Plan with PHIA in pymunk, and lift the plan action by action, each from where the plan expects the world to be."""
     scene = find_scene(name)
     with PlanningWorld(WorldSpec(scene, "pymunk", ARM)) as planning:
-        task = planning.task(scene.initial_state(), create(Kind.TOPOLOGY, "ripser"), np.random.default_rng(0))
+        task = retrieval_task(planning)
         began = time.perf_counter()
         plan = create(Kind.PLANNER, "phia").plan(task)
         spent = time.perf_counter() - began

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from statistics import mean, median
 
 from phframe.core import Episode, Status
-from phframe.pushing.outcome import is_cleared
+from phframe.pushing import PushDecision, is_cleared
 from phframe.runtime.solve import solve
 
 REACHED = (Status.REACHED, Status.RETRIEVED)
@@ -104,7 +104,8 @@ def was_cleared(episode: Episode) -> bool:
     if episode.status in (*REACHED, Status.CLEARED):
         return True
     plan = episode.plans[-1]
-    corridors = [decision.corridor for decision in plan.decisions if decision.corridor is not None]
+    found = (PushDecision.of(decision).corridor for decision in plan.decisions)
+    corridors = [corridor for corridor in found if corridor is not None]
     return bool(plan.expected and corridors) and is_cleared(episode.scene, plan.expected[-1], corridors[-1].half_width)
 
 

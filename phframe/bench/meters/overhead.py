@@ -13,7 +13,8 @@ import pymunk
 from phframe.backends.pymunk_.gripper import place_arm
 from phframe.backends.pymunk_.physics import PymunkPhysics
 from phframe.backends.pymunk_.world import ShelfSpace, build_world
-from phframe.core import Action, Plan, Planner, State, TopologyEngine, Transition, Watch
+from phframe.bench.meters.tasks import retrieval_task
+from phframe.core import Action, State, Stop, Transition, Watch
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
@@ -55,20 +56,16 @@ class Overhead:
 
 def measure(name: str, planner_name: str = "phia") -> Overhead:
     """Plan a scene again and again, and do with bare pymunk what planning did with it."""
-    planner, topology, spec = (
-        create(Kind.PLANNER, planner_name),
-        create(Kind.TOPOLOGY, "ripser"),
-        WorldSpec(find_scene(name)),
-    )
+    planner, spec = create(Kind.PLANNER, planner_name), WorldSpec(find_scene(name))
     with _NotingWorld(spec) as noting:
-        stepped, stepping = _time_steps(lambda: _plan(noting, planner, topology))
+        stepped, stepping = _time_steps(lambda: planner.plan(retrieval_task(noting)))
     with PlanningWorld(spec) as world:
         planning, bare, steps = np.inf, np.inf, 0
         for _ in range(REPEATS):
-            planning = min(planning, _plan(world, planner, topology).cost.total)
+            planning = min(planning, planner.plan(retrieval_task(world)).cost.total)
             seconds, steps = _bare(world, noting.applied)
             bare = min(bare, seconds)
-            stepping = min(stepping, _time_steps(lambda: _plan(world, planner, topology))[1])
+            stepping = min(stepping, _time_steps(lambda: planner.plan(retrieval_task(world)))[1])
     return Overhead(name, planning, bare, stepping, steps, stepped)
 
 
@@ -79,13 +76,9 @@ class _NotingWorld(PlanningWorld):
         super().__init__(spec)
         self.applied: list[tuple[State, Action]] = []
 
-    def apply(self, state: State, action: Action, watch: Watch | None = None) -> Transition:
+    def apply(self, state: State, action: Action, stop: Stop | None = None, watch: Watch | None = None) -> Transition:
         self.applied.append((state, action))
-        return super().apply(state, action, watch)
-
-
-def _plan(world: PlanningWorld, planner: Planner[Any], topology: TopologyEngine[Any]) -> Plan:
-    return planner.plan(world.task(world.scene.initial_state(), topology, np.random.default_rng(0)))
+        return super().apply(state, action, stop, watch)
 
 
 def _time_steps(work: Callable[[], object]) -> tuple[int, float]:

@@ -9,8 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from phframe.core import Action, Corridor, Scene, State
+from phframe.bench.meters.tasks import retrieval_task
+from phframe.core import Action, ActionKind, Scene, State
 from phframe.core.episode import prediction_errors
+from phframe.pushing import Corridor, PushDecision
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
@@ -18,7 +20,7 @@ from phframe.runtime.world import WorldSpec
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sweep:
+class PlannedSweep:
     """One planned sweep.
 
     Attributes:
@@ -74,7 +76,7 @@ class Score:
 
 def planned_sweeps(
     names: Sequence[str], options: Mapping[str, Any], *, scenes: Mapping[str, Any] | None = None, first: bool = False
-) -> list[Sweep]:
+) -> list[PlannedSweep]:
     """What PHIA plans in pymunk, the first sweep of each scene or all, whether the plan succeeds or not.
 
     Args:
@@ -83,22 +85,23 @@ def planned_sweeps(
         scenes: Options of the generator of scenes.
         first: Whether only the first sweep counts.
     """
-    planner, topology = create(Kind.PLANNER, "phia"), create(Kind.TOPOLOGY, "ripser")
+    planner = create(Kind.PLANNER, "phia")
     found = []
     for name in names:
         scene = find_scene(name, scenes or {})
         with PlanningWorld(WorldSpec(scene, backend_options=options)) as world:
-            plan = planner.plan(world.task(scene.initial_state(), topology, np.random.default_rng(0)))
+            plan = planner.plan(retrieval_task(world))
         state, sweeps = scene.initial_state(), []
         for action, expected, decision in zip(plan.actions, plan.expected, plan.decisions, strict=True):
-            if not action.grasps and decision.corridor is not None:
-                sweeps.append(Sweep(scene, state.parked(), action, decision.corridor))
+            corridor = PushDecision.of(decision).corridor
+            if action.kind is ActionKind.PUSH and corridor is not None:
+                sweeps.append(PlannedSweep(scene, state.parked(), action, corridor))
             state = expected
         found += sweeps[:1] if first else sweeps
     return found
 
 
-def outcomes(sweeps: Sequence[Sweep], backend: str, options: Mapping[str, Any] | None = None) -> list[State]:
+def outcomes(sweeps: Sequence[PlannedSweep], backend: str, options: Mapping[str, Any] | None = None) -> list[State]:
     """What a backend makes of each sweep."""
     found = []
     for sweep in sweeps:
@@ -107,7 +110,7 @@ def outcomes(sweeps: Sequence[Sweep], backend: str, options: Mapping[str, Any] |
     return found
 
 
-def compare(sweeps: Sequence[Sweep], predicted: Sequence[State], observed: Sequence[State]) -> list[Prediction]:
+def compare(sweeps: Sequence[PlannedSweep], predicted: Sequence[State], observed: Sequence[State]) -> list[Prediction]:
     """How well each sweep was predicted."""
     return [
         Prediction(

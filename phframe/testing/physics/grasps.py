@@ -171,11 +171,8 @@ def _place(arm: ArmModel[Any]) -> GripperPath:
     inside = way.poses[-1]
     aside = inside - np.array([0.0, ASIDE, 0.0])
     poses = np.vstack([way.poses, [aside, aside, [OUTSIDE, aside[1], 0.0]]])
-    return GripperPath(
-        poses,
-        (*way.phases, Phase.WITHDRAW, Phase.RETREAT, Phase.RETREAT),
-        {**way.rules, Phase.WITHDRAW: narrow, Phase.RETREAT: wide},
-    )
+    rules = {**way.rules, Phase.PLACE: narrow, Phase.RELEASE: wide, Phase.RETREAT: wide}
+    return GripperPath(poses, (*way.phases, Phase.PLACE, Phase.RELEASE, Phase.RETREAT), rules)
 
 
 def _drawn(arm: ArmModel[Any], position: tuple[float, float], yaw: float) -> GripperPath:

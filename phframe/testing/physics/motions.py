@@ -16,6 +16,7 @@ from phframe.core import (
     Settle,
     State,
     Stop,
+    StopCause,
     Trajectory,
     compose,
     inverse,
@@ -173,7 +174,9 @@ def stops_at_the_first_contact(subject: PhysicsUnderTest) -> Faults:
         trajectory = stand.trajectory(stand.start, drive_in(0.4))
         made = stand.physics.simulate(stand.start, trajectory, stop=Stop(bodies=frozenset({"near"})), settle=None)
         motion, arm = made.motion, made.state.arm
-        yield from expect(motion.stopped and "near" in motion.stopped, "stopped, with 'near' as the cause", str(motion))
+        yield from expect(
+            motion.stopped and motion.stopped.body == "near", "stopped, with 'near' as the cause", str(motion)
+        )
         yield from expect(not motion.complete, "a motion that was not completed", str(motion))
         yield from expect_close(np.nan if arm is None else arm.gripper[0], 0.12, 0.015, "x of the fingertip (m)")
         left = trajectory.duration - motion.followed
@@ -187,7 +190,8 @@ def stops_at_a_force(subject: PhysicsUnderTest) -> Faults:
     """Stop.force: the motion ends when the force on the arm is above this."""
     with on_stand(subject, scene_of(cylinder("heavy", 0.2, MIDDLE, mass=4.0, friction=0.5))) as stand:
         motion = stand.run(stand.start, drive_in(0.4), stop=Stop(force=8.0)).motion
-        yield from expect(motion.stopped, "stopped, as 19.6 N are needed", str(motion))
+        cause = None if motion.stopped is None else motion.stopped.cause
+        yield from expect(cause is StopCause.FORCE, "stopped by the force, as 19.6 N are needed", str(motion))
         yield from expect(motion.stopped is None or not motion.stalled, "a stop rather than a stall", str(motion))
         free = stand.run(stand.start, drive_in(0.15), stop=Stop(force=8.0)).motion
         yield from expect(free.complete, "no stop where nothing is touched", str(free))
@@ -198,7 +202,8 @@ def stops_at_a_wall(subject: PhysicsUnderTest) -> Faults:
     """Stop.wall: the motion ends at any contact of the arm with a wall."""
     with on_stand(subject, scene_of(cylinder("o", 0.3, 0.5))) as stand:
         made = stand.run(stand.start, sweep(0.3, MIDDLE, 0.0), stop=Stop(wall=True))
-        yield from expect(made.motion.stopped, "stopped at the south wall", str(made.motion))
+        cause = None if made.motion.stopped is None else made.motion.stopped.cause
+        yield from expect(cause is StopCause.WALL, "stopped by the south wall", str(made.motion))
         walls = {contact.body for contact in made.motion.wall_contacts}
         yield from expect_equal(walls, {"south wall"}, "the walls touched")
 

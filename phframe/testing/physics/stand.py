@@ -57,7 +57,7 @@ class Stand:
         """
         path, opening = self._closed_as_it_closes(path), self.arm.shape.min_opening
         if state.arm is None:
-            opening = path.rules[path.phases[0]].opening
+            opening = path.rule(0).opening
         else:
             path = starting_from(
                 path, state.arm.gripper, path.rules.get(Phase.APPROACH, rule(opening=state.arm.commanded_opening))

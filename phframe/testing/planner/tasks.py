@@ -6,7 +6,7 @@ from weakref import finalize
 
 import numpy as np
 
-from phframe.core import Action, Budget, Scene, State, Task
+from phframe.core import Action, Budget, Rejection, Scene, State, Task
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.world import WorldSpec
@@ -21,7 +21,7 @@ def simulated_tasks(backend: str = "pymunk", arm: str = "planar", topology: str 
         arm: Registered name of the arm.
         topology: Registered name of the topology engine.
     """
-    engine = create(Kind.TOPOLOGY, topology)
+    engine, goal = create(Kind.TOPOLOGY, topology), create(Kind.GOAL, "retrieve")
 
     def make_task(
         scene: Scene,
@@ -32,7 +32,9 @@ def simulated_tasks(backend: str = "pymunk", arm: str = "planar", topology: str 
         rejected: tuple[Action, ...] = (),
     ) -> Task:
         world, rng = PlanningWorld(WorldSpec(scene, backend, arm)), np.random.default_rng(seed)
-        task = world.task(start or scene.initial_state(), engine, rng, budget=budget, rejected=rejected)
+        refused = tuple(Rejection(action, "the arm cannot do it") for action in rejected)
+        begin = start or scene.initial_state()
+        task = world.task(begin, engine, rng, goal=goal, budget=budget, rejected=refused)
         finalize(task, world.close)
         return task
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 from phframe.core import (
     MOUTH_CLEARANCE,
     Action,
+    ActionKind,
     ArmShape,
     Contacts,
-    Corridor,
-    FloatArray,
     GripperPath,
     Infeasible,
     Phase,
@@ -24,20 +23,17 @@ from phframe.core import (
     State,
     rotation_matrix,
 )
+from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.geometry.arm_view import ArmView
+from phframe.geometry.straight_motion import distances_on_way_in
+from phframe.pushing.corridor import Corridor
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.options import PushingOptions
+from phframe.pushing.options import ROUNDING, PushingOptions
 
-YAW_STEPS = tuple(math.radians(degrees) for degrees in (0, 5, -5, 10, -10, 15, -15))
-"""Deviations from the corridor's axis, tried in this order (rad)."""
+YAW_STEPS = tuple(math.radians(degrees) for degrees in (0, 5, -5, 10, -10, 15, -15, 20, -20, 25, -25, 30, -30))
+"""Deviations from the corridor's axis, tried in this order as far as the options allow (rad)."""
 FITS = ((0.02, 0.008), (0.01, 0.005), (0.004, 0.003))
 """How far the fingertips go past the target's centre, and the room between it and each open finger (m): wide first."""
-NEIGHBOUR_CLEARANCE = 0.002
-"""Between the reaching arm and what it must not touch (m)."""
-LEAST_AHEAD = 0.2
-"""Least cosine of an arm's yaw: one turned further from the mouth does not come in through it."""
-OUTSIDE = 0.10
-"""How far outside the mouth the whole target is drawn (m)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,10 +42,12 @@ class Grasp:
 
     Attributes:
         action: What to do.
+        corridor: Along which the target was to be reached.
         deviations: The deviations it needed, by name.
     """
 
     action: Action
+    corridor: Corridor
     deviations: tuple[Deviation, ...] = ()
 
 
@@ -59,7 +57,7 @@ def grasp_action(
     corridor: Corridor,
     arm: ArmShape,
     options: PushingOptions,
-    rejected: Collection[Action] = (),
+    rejects: Callable[[Action], object] = lambda _: None,
 ) -> Grasp | Infeasible:
     """The reach along the corridor's axis, the grasp and the withdrawal, turned by up to 15 degrees past neighbours.
 
@@ -71,8 +69,8 @@ def grasp_action(
         state: The world at rest.
         corridor: To the target.
         arm: Seen from above.
-        options: For the speed.
-        rejected: Actions that are not to be proposed again.
+        options: For speeds, clearances and turns.
+        rejects: Tells why an action is not to be proposed again; None: it may be.
     """
     radius = float(scene.radii[scene.target_index])
     least = Infeasible(f"the target is {2 * radius:g} m wide, too wide for a gripper that opens {arm.max_opening:g} m")
@@ -80,16 +78,18 @@ def grasp_action(
         opening = 2.0 * (radius + clearance)
         if opening > arm.max_opening:
             continue
-        view = ArmView(scene.shelf, arm.outlines(opening), NEIGHBOUR_CLEARANCE)
+        view = ArmView(scene.shelf, arm.outlines(opening), options.neighbour_clearance)
         for yaw_offset in YAW_STEPS:
+            if abs(yaw_offset) > options.max_grasp_turn + ROUNDING:
+                continue
             if math.cos(corridor.angle + yaw_offset) < LEAST_AHEAD:
                 continue
-            reach = _Reach(scene, state, corridor.angle + yaw_offset, view, past)
+            reach = _Reach(scene, state, corridor.angle + yaw_offset, view, past, options)
             obstruction = reach.obstruction()
             if obstruction is None:
-                action = reach.action(opening, radius, arm.min_opening, options)
-                if action not in rejected:
-                    return Grasp(action, _deviations(fit, yaw_offset))
+                action = reach.action(opening, radius, arm.min_opening)
+                if rejects(action) is None:
+                    return Grasp(action, corridor, _deviations(fit, yaw_offset))
                 obstruction = Infeasible("the arm cannot do any grasp that nothing blocks")
             least = min(obstruction, least, key=_severity)
     return least
@@ -108,8 +108,10 @@ def _severity(obstruction: Infeasible) -> tuple[bool, int]:
 class _Reach:
     """A straight reach at one yaw."""
 
-    def __init__(self, scene: Scene, state: State, yaw: float, view: ArmView, past: float) -> None:
-        self._scene, self._state, self._yaw = scene, state, yaw
+    def __init__(
+        self, scene: Scene, state: State, yaw: float, view: ArmView, past: float, options: PushingOptions
+    ) -> None:
+        self._scene, self._state, self._yaw, self._options = scene, state, yaw, options
         self._view, self._boxes = view, view.boxes
         self._target = state.positions[scene.target_index]
         self._ahead = np.array([math.cos(yaw), math.sin(yaw)])
@@ -132,31 +134,20 @@ class _Reach:
         lower, upper = self._boxes
         distance = distances_on_way_in(local, lower, upper, self._length).min(axis=0)
         distance[self._scene.target_index] = np.inf
-        return np.asarray((distance < self._scene.radii + NEIGHBOUR_CLEARANCE) & self._state.on_board)
+        return np.asarray((distance < self._scene.radii + self._options.neighbour_clearance) & self._state.on_board)
 
-    def action(self, opening: float, radius: float, closed: float, options: PushingOptions) -> Action:
+    def action(self, opening: float, radius: float, closed: float) -> Action:
         """Reach, close the fingers, draw straight out until the whole target is well outside the mouth."""
-        out = (float(self._target[0]) + radius + OUTSIDE) / self._ahead[0]
+        out = (float(self._target[0]) + radius + self._options.withdrawal) / self._ahead[0]
         start = self._tip - self._length * self._ahead
         end = self._tip - max(out, self._length) * self._ahead
         poses = np.column_stack([np.array([start, self._tip, self._tip, end]), np.full(4, self._yaw)])
+        speed = self._options.reach_speed
         rules = {
-            Phase.REACH: PhaseRule(options.reach_speed, opening, Contacts.TARGET),
-            Phase.GRASP: PhaseRule(options.reach_speed, closed, Contacts.TARGET),
-            Phase.WITHDRAW: PhaseRule(options.reach_speed, closed, Contacts.TARGET),
+            Phase.REACH: PhaseRule(speed, opening, Contacts.MANIPULAND),
+            Phase.GRASP: PhaseRule(speed, closed, Contacts.MANIPULAND),
+            Phase.WITHDRAW: PhaseRule(speed, closed, Contacts.MANIPULAND),
         }
-        path = GripperPath(poses, (Phase.REACH, Phase.GRASP, Phase.WITHDRAW), rules)
-        return Action(f"grasp {self._scene.target}", path, (self._scene.target,))
-
-
-def distances_on_way_in(points: FloatArray, lower: FloatArray, upper: FloatArray, length: float) -> FloatArray:
-    """Distances ``(m, n)`` of points from the regions that parts of the arm cover on a straight way in of a length (m).
-
-    A region is bounded by the box around the part, drawn back along the way: parts are convex and narrow ahead, so the
-    box is a close and safe bound.
-    """
-    ahead, across = (
-        np.maximum(np.maximum(low[:, None] - points[:, axis], points[:, axis] - high[:, None]), 0.0)
-        for axis, low, high in ((0, lower[:, 0] - length, upper[:, 0]), (1, lower[:, 1], upper[:, 1]))
-    )
-    return np.asarray(np.hypot(ahead, across))
+        target = self._scene.target
+        path = GripperPath(poses, (Phase.REACH, Phase.GRASP, Phase.WITHDRAW), rules, target)
+        return Action(f"grasp {target}", path, (target,), ActionKind.GRASP)

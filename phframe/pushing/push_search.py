@@ -1,0 +1,125 @@
+"""The search tree of planners that push until the target is free and then grasp it: trying pushes, going back, ending."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from phframe.core import Action, Attempt, Decision, Infeasible, Plan, State, Status, Task, Transition
+from phframe.pushing.deviation import Deviation
+from phframe.pushing.grasp import Grasp
+from phframe.pushing.options import PushingOptions
+from phframe.pushing.push_decision import PushDecision
+from phframe.pushing.push_problem import PushProblem
+from phframe.pushing.pushing import Pushing
+
+UNCHANGED = 1e-3
+"""No object moved more than this (m): the action failed."""
+
+Proposal = tuple[PushDecision, Action]
+
+
+class PushSearch:
+    """What a planner of the family does at a node: see what stands there, try pushes, end with a grasp or a reason.
+
+    Args:
+        task: The task.
+        options: The planner's.
+        grasp_rounds: How often what blocks the grasp may be pushed aside on a path, once the corridor is empty.
+
+    Attributes:
+        pushing: The paper's geometry for the task.
+        tree: All that was tried.
+    """
+
+    def __init__(self, task: Task, options: PushingOptions, grasp_rounds: int = 1) -> None:
+        self.task, self.pushing, self._grasp_rounds = task, Pushing(task, options), grasp_rounds
+        self.tree = task.search_tree()
+
+    def state(self, node: int) -> State:
+        """The state at a node."""
+        return self.tree[node].state
+
+    def next_step(self, node: int) -> PushProblem | Grasp | Infeasible:
+        """What is to be done at a node: obstacles to be pushed, a grasp that nothing blocks, or why there is neither.
+
+        Where the corridor is empty and objects beside the target block the grasp, these are the obstacles.
+        """
+        problem = self.pushing.problem(self.state(node))
+        if isinstance(problem, Infeasible) or len(problem.members):
+            return problem
+        grasp = self.pushing.grasp(problem)
+        if isinstance(grasp, Grasp) or not grasp.blockers or self._rounds(node) >= self._grasp_rounds:
+            return grasp
+        return self.pushing.problem(self.state(node), grasp.blockers)
+
+    def try_push(self, node: int, decision: Decision, action: Action) -> int:
+        """Simulate a push from a node; the index of the new one. One with a penalty is closed; see ``penalty``."""
+        return self._add(node, decision, action, self.task.apply(self.state(node), action))
+
+    def try_pushes(self, node: int, proposals: Iterable[Proposal]) -> list[int]:
+        """The same for several pushes, simulated by as many workers as there are."""
+        proposed = list(proposals)
+        made = self.task.apply_many([(self.state(node), action) for _, action in proposed])
+        return [
+            self._add(node, decision, action, each) for (decision, action), each in zip(proposed, made, strict=True)
+        ]
+
+    def penalty(self, node: int) -> int:
+        """0 where the push that led to a node did what it should; more for a spill, a stall, one that moved nothing."""
+        found = self.tree[node]
+        if found.parent is None or found.motion is None:
+            return 0
+        return _penalty(self.state(found.parent), Transition(found.state, found.motion))
+
+    def take(self, node: int, *deviations: str) -> None:
+        """Go on from a node all the same, noting by which deviations it was taken."""
+        found = self.tree[node]
+        decision = found.decision or Decision()
+        self.tree.reopen(node, replace(decision, deviations=(*decision.deviations, *deviations)))
+
+    def finish(self, node: int, step: Grasp | Infeasible) -> Plan:
+        """The plan that ends at a node, where nothing is left to be pushed: with a grasp, or with why there is none."""
+        return self.grasp(node, step) if isinstance(step, Grasp) else self.fail(node, step.reason)
+
+    def grasp(self, node: int, grasp: Grasp) -> Plan:
+        """The plan that ends with a grasp from a node, simulated and judged by the task's goal."""
+        decision = PushDecision("nothing blocks the grasp", grasp.deviations, corridor=grasp.corridor)
+        end = self.tree.child(node, grasp.action, self.task.apply(self.state(node), grasp.action), decision)
+        found = self.tree[end]
+        assert found.motion is not None, "simulated"
+        outcome = self.task.goal.assess(self.task.scene, found.state, Attempt(grasp.action, found.motion))
+        return Plan(outcome.status, outcome.reason, self.tree.explored(end))
+
+    def fail(self, node: int, reason: str) -> Plan:
+        """The plan that ends at a node without success, and why; what was rejected before is told, too."""
+        why = dict.fromkeys(each.reason for each in self.task.rejected)
+        rejected = f" (rejected before: {'; '.join(why)})" if why else ""
+        return Plan(Status.FAILED, reason + rejected, self.tree.explored(node))
+
+    def _rounds(self, node: int) -> int:
+        """How often blockers of the grasp were pushed on the path to a node."""
+        decisions = (each.decision for each in self.tree.path(node))
+        return sum(Deviation.GRASP_BLOCKED in decision.deviations for decision in decisions if decision is not None)
+
+    def _add(self, node: int, decision: Decision, action: Action, made: Transition) -> int:
+        penalty = _penalty(self.state(node), made)
+        return self.tree.child(node, action, made, decision, value=-float(penalty), closed=_fault(penalty, made))
+
+
+def _penalty(before: State, made: Transition) -> int:
+    spilled = int((before.on_board & ~made.state.on_board).sum())
+    return spilled + 100 * (not made.motion.complete) + 10000 * is_unchanged(before, made.state)
+
+
+def _fault(penalty: int, made: Transition) -> str:
+    if penalty >= 10000:
+        return f"nothing moved{f': {made.motion.stopped}' if made.motion.stopped else ''}"
+    if penalty >= 100:
+        return str(made.motion.stopped or f"stalled at {made.motion.largest_force:.0f} N")
+    return "something spilled" if penalty else ""
+
+
+def is_unchanged(before: State, after: State) -> bool:
+    """Whether no object moved by more than a millimetre, which makes an action a failure (the paper's "unchanged")."""
+    return bool((after.displacement(before) <= UNCHANGED).all())

@@ -1,0 +1,143 @@
+"""The paper's geometry for one task: the obstacles that count, the pushes that their grouping offers, the grasp."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from phframe.core import Action, Condition, Infeasible, IntArray, PersistenceDiagram, State, Task
+from phframe.geometry.arm_view import ArmView
+from phframe.pushing.corridor import corridor_half_width, find_corridor
+from phframe.pushing.deviation import Deviation
+from phframe.pushing.grasp import Grasp, grasp_action
+from phframe.pushing.grouping import closest_component
+from phframe.pushing.options import PushingOptions
+from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
+from phframe.pushing.push_decision import PushDecision
+from phframe.pushing.push_problem import PushProblem
+from phframe.pushing.retrieve import Retrieve
+from phframe.pushing.sweep import push_action
+from phframe.pushing.sweep_generator import SweepGenerator
+
+
+class Pushing:
+    """The paper's geometry for one task, with one planner's options. Holds nothing that changes.
+
+    Args:
+        task: The task.
+        options: The planner's.
+
+    Attributes:
+        scene: The task's, its target the object that is to be retrieved.
+        half_width: Of the corridor, w (m).
+        threshold: Distance between centres below which nothing can be inserted between two objects, h (m).
+    """
+
+    def __init__(self, task: Task, options: PushingOptions) -> None:
+        self.task, self.options = task, options
+        self.scene = task.goal.scene(task.scene) if isinstance(task.goal, Retrieve) else task.scene
+        self.half_width = corridor_half_width(options.half_width, self.scene, task.arm)
+        self._radii = self.scene.radii
+        self._view = ArmView(self.scene.shelf, task.arm.closed, options.wall_clearance)
+        obstacles = np.delete(self._radii, self.scene.target_index)
+        self.threshold = usable_threshold(options.insertion_width, float(obstacles.max(initial=0.0)))
+
+    def problem(self, state: State, blockers: Sequence[str] = ()) -> PushProblem | Infeasible:
+        """What is to be pushed aside so that the target can be reached.
+
+        Args:
+            state: The world at rest.
+            blockers: Ids of obstacles that count although they are not in the corridor.
+        """
+        scene, row = self.scene, self.scene.target_index
+        if not isinstance(self.task.goal, Retrieve):
+            return Infeasible(f"pushing aside serves to retrieve a target; the goal is {type(self.task.goal).__name__}")
+        if state.conditions[row] is not Condition.UPRIGHT:
+            return Infeasible(f"the target {scene.target!r} is {state.conditions[row]}")
+        corridor = find_corridor(state.positions[row], scene.shelf, self.half_width)
+        if isinstance(corridor, Infeasible):
+            return corridor
+        counts = corridor.contains(state.positions) | np.isin(scene.ids, list(blockers))
+        counts[row] = False
+        members = np.flatnonzero(counts & state.on_board)
+        return PushProblem(state, corridor, members, corridor.to_local(state.positions[members]), tuple(blockers))
+
+    def diagram(self, problem: PushProblem) -> PersistenceDiagram:
+        """The persistence diagram of the obstacles that count."""
+        return self.task.diagram(problem.local)
+
+    def radii(self, diagram: PersistenceDiagram) -> list[float]:
+        """The usable radii, ascending (m): persistent by the margin nu and above the threshold h."""
+        found: list[float] = usable_radii(diagram.finite_deaths, self.options.margin, self.threshold).tolist()
+        return found
+
+    def pushes(
+        self, problem: PushProblem, diagram: PersistenceDiagram, radius: float, deviations: tuple[str, ...] = ()
+    ) -> Iterator[tuple[PushDecision, Action]]:
+        """The pushes of the closest component at a radius, best first, without those that were rejected.
+
+        Args:
+            problem: With at least one member.
+            diagram: Of its members.
+            radius: At which to group (m).
+            deviations: Those that led to the radius.
+        """
+        labels = self.task.components(problem.local, radius)
+        chosen = closest_component(problem.local, labels, problem.corridor.axis)
+        persistent = tuple(persistent_radii(diagram.finite_deaths, self.options.margin).tolist())
+        blocked = (Deviation.GRASP_BLOCKED,) if problem.blockers else ()
+        for decision, action in self.sweeps(problem, chosen):
+            grouped = replace(
+                decision,
+                why=f"the closest component at a radius of {1000 * radius:.0f} mm",
+                deviations=(*deviations, *blocked, *decision.deviations),
+                diagram=diagram,
+                persistent_radii=persistent,
+                radius=radius,
+                labels=labels,
+            )
+            yield grouped, action
+
+    def sweeps(self, problem: PushProblem, chosen: IntArray) -> Iterator[tuple[PushDecision, Action]]:
+        """The sweeps of any group of members, best first, without those that were rejected.
+
+        Args:
+            problem: With at least one member.
+            chosen: Indices ``(k,)`` of the group among the members.
+        """
+        ids, corridor = self.scene.ids, problem.corridor
+        names = tuple(ids[row] for row in problem.members[chosen])
+        members = tuple(ids[row] for row in problem.members)
+        generator = self._generator(problem, chosen)
+        for push in generator.pushes():
+            action = push_action(corridor, push.sweep, names, self.task.arm.min_opening, self.options)
+            if self.task.rejects(action) is None:
+                yield (
+                    PushDecision(
+                        "a group of obstacles",
+                        push.deviations,
+                        corridor=corridor,
+                        members=members,
+                        chosen=names,
+                        rectangle=generator.rectangle,
+                        sweep=push.sweep,
+                    ),
+                    action,
+                )
+
+    def grasp(self, problem: PushProblem) -> Grasp | Infeasible:
+        """The reach, grasp and withdrawal along the corridor, if the target can be got at without what was rejected."""
+        task = self.task
+        return grasp_action(self.scene, problem.state, problem.corridor, task.arm, self.options, task.rejects)
+
+    def _generator(self, problem: PushProblem, chosen: IntArray) -> SweepGenerator:
+        return SweepGenerator(
+            problem.corridor,
+            problem.local[chosen],
+            float(self._radii[problem.members[chosen]].max()),
+            float(self._radii[self.scene.target_index]),
+            self._view,
+            self.options,
+        )
