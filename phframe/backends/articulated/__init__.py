@@ -15,12 +15,12 @@ from phframe.backends.articulated.engine import (
     Vector,
     substeps,
 )
-from phframe.backends.articulated.physics import ArticulatedOptions, ArticulatedPhysics, Coefficient
+from phframe.backends.articulated.physics import JointEngineOptions, ArticulatedPhysics, Coefficient
 from phframe.backends.articulated.world import ArticulatedSnapshot, ArticulatedWorld
 
 __all__ = [
     "ArmReading",
-    "ArticulatedOptions",
+    "JointEngineOptions",
     "ArticulatedPhysics",
     "ArticulatedSnapshot",
     "ArticulatedWorld",

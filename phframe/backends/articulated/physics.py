@@ -33,7 +33,7 @@ SAMPLE = 0.02
 """Time between the joint samples of a twist that is held (s)."""
 
 
-class ArticulatedOptions(Options):
+class JointEngineOptions(Options):
     """What these engines have in common.
 
     Attributes:
@@ -57,7 +57,7 @@ class ArticulatedOptions(Options):
     stall_lag: Annotated[float, Field(gt=0.0, le=0.2)] = 0.015
 
 
-OptionsT = TypeVar("OptionsT", bound=ArticulatedOptions)
+OptionsT = TypeVar("OptionsT", bound=JointEngineOptions)
 
 
 class ArticulatedPhysics(Physics[OptionsT]):

@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from phframe.backends.articulated import ArticulatedOptions
+from phframe.backends.articulated import JointEngineOptions
 
 
-class MujocoOptions(ArticulatedOptions):
+class MujocoOptions(JointEngineOptions):
     """Options of the MuJoCo backend, besides those that all engines of joints have.
 
     Attributes:

@@ -7,13 +7,13 @@ from typing import Annotated
 
 from pydantic import Field
 
-from phframe.backends.articulated import ArticulatedOptions
+from phframe.backends.articulated import JointEngineOptions
 
 LEAST_FRICTION = 1e-3
 """An object's own coefficient where there is no friction between objects: not 0, by which nothing can be multiplied."""
 
 
-class PybulletOptions(ArticulatedOptions):
+class PybulletOptions(JointEngineOptions):
     """Options of the PyBullet backend, besides those that all engines of joints have.
 
     Bullet multiplies the coefficients of two bodies that touch. So that every pair has its own, whatever the others
