@@ -80,7 +80,7 @@ class EngineContact(NamedTuple):
         wall: Whether that is a wall or the ceiling.
         row: Of the object, None for others.
         finger: Which finger the part is: +1 left, -1 right, 0 none.
-        push: Direction, of any length, in which the arm pushes the body.
+        push: Direction, of any length, in which a finger pushes an object; it does not matter for other pairs.
     """
 
     part: str

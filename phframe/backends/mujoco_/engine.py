@@ -20,6 +20,7 @@ from phframe.core import ArmModel, BasePose, FloatArray, Scene, planar_pose, yaw
 
 AWAY = 10.0
 """What has spilled is put this far before the mouth (m), where it meets nothing."""
+STILL = (0.0, 0.0, 0.0)
 EVERYTHING = mujoco.mjtState.mjSTATE_INTEGRATION
 """All that the engine's next step depends on: speeds, commands and warm start included."""
 
@@ -88,13 +89,15 @@ class MujocoEngine:
     def contacts(self) -> Iterator[EngineContact]:
         """The arm's contacts with anything else, told by the bodies that geoms belong to."""
         model, contact = self.model, self.data.contact
-        is_arm, names = model.is_arm, model.names
-        for (one, other), (x, y, z) in zip(contact.geom.tolist(), contact.frame[:, :3].tolist(), strict=True):
+        is_arm, names, frames = model.is_arm, model.names, contact.frame
+        for number, (one, other) in enumerate(contact.geom.tolist()):
             if is_arm[one] is not is_arm[other]:
-                part, body, push = (one, other, (x, y, z)) if is_arm[one] else (other, one, (-x, -y, -z))
-                yield EngineContact(
-                    names[part], names[body], model.is_wall[body], model.rows[body], model.sides[part], push
-                )
+                part, body = (one, other) if is_arm[one] else (other, one)
+                finger, row, push = model.sides[part], model.rows[body], STILL
+                if finger and row is not None:
+                    x, y, z = frames[number, :3].tolist()
+                    push = (x, y, z) if is_arm[one] else (-x, -y, -z)
+                yield EngineContact(names[part], names[body], model.is_wall[body], row, finger, push)
 
     def trouble(self) -> str | None:
         """What MuJoCo has warned of, or that the arm is nowhere."""
