@@ -15,18 +15,18 @@ from phframe.backends.articulated.engine import (
     Vector,
     substeps,
 )
-from phframe.backends.articulated.physics import JointEngineOptions, ArticulatedPhysics, Coefficient
+from phframe.backends.articulated.physics import ArticulatedPhysics, Coefficient, JointEngineOptions
 from phframe.backends.articulated.world import ArticulatedSnapshot, ArticulatedWorld
 
 __all__ = [
     "ArmReading",
-    "JointEngineOptions",
     "ArticulatedPhysics",
     "ArticulatedSnapshot",
     "ArticulatedWorld",
     "Coefficient",
     "EngineContact",
     "JointEngine",
+    "JointEngineOptions",
     "ObjectReading",
     "Placement",
     "Progress",

@@ -39,7 +39,7 @@ class JointEngineOptions(Options):
     Attributes:
         step: Time step (s).
         control_period: Between commands to the joints, and between looks at what the arm touches (s).
-        sleep: Whether what is at rest is passed over until something touches it; several times faster.
+        sleep: Whether what is at rest is left out until something touches it; several times faster.
         object_friction: Coulomb coefficient between objects.
         arm_friction: Coulomb coefficient between the arm and all else.
         turning_friction: Of a contact against turning on the spot (m).

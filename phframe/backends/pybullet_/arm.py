@@ -24,7 +24,7 @@ COUPLING_FORCE = 1000.0
 COUPLING_GAIN = 0.2
 """Fraction of the difference between coupled joints that is made good in a step."""
 FRACTIONS = (0.1, 0.4, 0.8)
-"""Of the joints' ranges: postures in which to see whether an arm's weight moves its joints."""
+"""Of the joints' ranges: joint values at which to see whether an arm's weight moves its joints."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +146,7 @@ def _soften(client: int, body: int, link: int, options: PybulletOptions) -> None
 
 
 def _couple(client: int, body: int, joints: Mapping[str, int], coupling: Coupling) -> None:
-    """Hold two joints together; PyBullet itself passes over ``mimic``."""
+    """Hold two joints together; PyBullet itself ignores ``mimic``."""
     origin = [0.0, 0.0, 0.0]
     leader, follower = joints[coupling.leader], joints[coupling.joint]
     gear = bullet.createConstraint(
@@ -196,8 +196,8 @@ def weight(client: int, arm: LoadedArm, values: Sequence[float]) -> tuple[float,
 def sags(client: int, arm: LoadedArm) -> bool:
     """Whether an arm's own weight moves any joint: not where they all slide level or turn about the vertical."""
     ranges = [arm.infos[joint][8:10] for joint in arm.movable]
-    postures = ([lower + fraction * (upper - lower) for lower, upper in ranges] for fraction in FRACTIONS)
-    return any(any(weight(client, arm, posture)) for posture in postures)
+    samples = ([lower + fraction * (upper - lower) for lower, upper in ranges] for fraction in FRACTIONS)
+    return any(any(weight(client, arm, values)) for values in samples)
 
 
 def inertias(client: int, arm: LoadedArm, values: Sequence[float]) -> FloatArray:

@@ -38,7 +38,7 @@ SURVEY = 30
 """Steps between looks at what has left the board and whether all is still again: 1/8 s at the default step."""
 CALM_CHECK = 6
 """Steps between looks at whether all is at rest."""
-EASE_SPEED, EASE_STEPS, EASE_CHECK, EASED = 0.05, 60, 4, 1e-5
+COMPLY_SPEED, COMPLY_STEPS, COMPLY_CHECK, COMPLIED = 0.05, 60, 4, 1e-5
 """How fast (m/s), for how many steps, looking how often, and down to which overlap (m) a stalled arm complies."""
 SATURATED = 0.999
 """Fraction of the force limit at which the drive has nothing left to give."""
@@ -203,12 +203,16 @@ class PymunkDrive:
         set_opening(world, told)
 
     def _set_speed(self, target: FloatArray, duration: float) -> None:
-        """Make the carrier arrive at a pose in time; the drive need not accelerate the arm itself."""
-        carrier, body = self._world.arm.carrier, self._world.arm.body
+        """Make the carrier arrive at a pose in time; the drive need not accelerate the arm itself, nor what it can carry."""
+        world, carrier, body = self._world, self._world.arm.carrier, self._world.arm.body
         x, y = carrier.position
         carrier.velocity = (float(target[0]) - x) / duration, (float(target[1]) - y) / duration
         carrier.angular_velocity = (float(target[2]) - carrier.angle) / duration
         body.velocity, body.angular_velocity = carrier.velocity, carrier.angular_velocity
+        if world.held is not None and drag(world) * self._step < self._full_impulse:
+            carried = world.items[world.held].body
+            carried.velocity = body.velocity_at_world_point(carried.position)
+            carried.angular_velocity = body.angular_velocity
 
     def _advance(self, end: int) -> None:
         """Step until a number of steps or an end, and keep the mean force of the last 20 ms; the hot path."""
@@ -247,7 +251,7 @@ class PymunkDrive:
         """Stand still, and where the arm could not follow, forget where it should have been."""
         arm = self._world.arm
         if self._stalled:
-            self._ease_off()
+            self._comply()
             self._stalled = True
         arm.carrier.velocity = arm.body.velocity = 0.0, 0.0
         arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
@@ -255,19 +259,19 @@ class PymunkDrive:
             arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
         survey(self._world)
 
-    def _ease_off(self) -> None:
-        """Give way, back along where the arm came from, while what it pressed together comes apart again."""
+    def _comply(self) -> None:
+        """Comply: go back along where the arm came from, while what it pressed together comes apart again."""
         arm, world = self._world.arm, self._world
         self._stalled = False
         x, y = arm.carrier.velocity
-        slow = EASE_SPEED / max(math.hypot(x, y), EASE_SPEED)
+        slow = COMPLY_SPEED / max(math.hypot(x, y), COMPLY_SPEED)
         arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
         arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
-        until = world.tick + EASE_STEPS
+        until = world.tick + COMPLY_STEPS
         while world.tick < until:
-            fraction = slow if overlap(world) > EASED else 0.0
+            fraction = slow if overlap(world) > COMPLIED else 0.0
             arm.carrier.velocity = arm.body.velocity = -fraction * x, -fraction * y
-            self._advance(world.tick + EASE_CHECK)
+            self._advance(world.tick + COMPLY_CHECK)
 
     def _settle(self, settle: Settle) -> None:
         """Wait until everything has been calm for long enough."""

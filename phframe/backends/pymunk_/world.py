@@ -38,11 +38,11 @@ class PymunkSurfaces:
 
     @property
     def object_factor(self) -> float:
-        """An object's share in every product."""
+        """An object's factor in every product."""
         return math.sqrt(self.objects)
 
     def partner_factor(self, coefficient: float) -> float:
-        """The fraction of what touches an object with a coefficient."""
+        """The factor of what touches an object with a coefficient."""
         return coefficient / self.object_factor if self.object_factor > 0.0 else 0.0
 
 

@@ -24,7 +24,7 @@ from phframe.core import (
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_at_most, expect_close, expect_equal
 from phframe.testing.physics.paths import MIDDLE, OUTSIDE, cylinder, drive_in, grasp, graspable_radius, path, scene_of
-from phframe.testing.physics.stand import Film, on_stand
+from phframe.testing.physics.stand import WatchLog, on_stand
 from phframe.testing.subjects import PhysicsUnderTest
 
 DEPTH = 0.25
@@ -37,7 +37,7 @@ ASIDE = 0.1
 def a_grasped_target_comes_out(subject: PhysicsUnderTest) -> Faults:
     """State.held: a target between the closing fingers is held and leaves with the arm; in the hand, it has not spilled."""
     with on_stand(subject, _scene(subject)) as stand:
-        film = Film(0.02)
+        film = WatchLog(0.02)
         made = stand.run(stand.start, grasp(stand.arm, DEPTH), watch=film.watch)
         yield from expect_equal(made.state.held, "target", "what is held")
         yield from expect_equal(made.state.conditions, (Condition.UPRIGHT,) * 2, "the conditions")
@@ -115,7 +115,7 @@ def open_fingers_let_go(subject: PhysicsUnderTest) -> Faults:
 def what_is_placed_stays(subject: PhysicsUnderTest) -> Faults:
     """Physics.execute: fingers that open in any leg let go of what they hold; it then stands on the board, free."""
     with on_stand(subject, _scene(subject)) as stand:
-        film = Film(0.02)
+        film = WatchLog(0.02)
         made = stand.run(stand.start, _place(subject.arm), watch=film.watch)
         yield from expect(made.motion.complete, "the whole trajectory followed", str(made.motion))
         yield from expect(any(state.held == "target" for state in film.states), "'target' held on the way", "never")
@@ -136,7 +136,7 @@ def a_held_target_passes_the_mouth_at_an_angle(subject: PhysicsUnderTest) -> Fau
     radius = graspable_radius(subject.arm)
     target = cylinder("target", 0.2, 0.29, radius=radius)
     with on_stand(subject, scene_of(cylinder("other", 0.45, 0.5), target)) as stand:
-        film = Film(0.02)
+        film = WatchLog(0.02)
         made = stand.run(stand.start, _drawn(subject.arm, target.position, math.radians(35.0)), watch=film.watch)
         yield from expect(made.motion.complete, "the whole trajectory followed", str(made.motion))
         held = [state.held for state in film.states]

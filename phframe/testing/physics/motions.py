@@ -25,7 +25,7 @@ from phframe.core import (
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_at_most, expect_close, expect_equal, expect_raises
 from phframe.testing.physics.paths import CROWD_SWEEP, MIDDLE, OUTSIDE, crowd, cylinder, drive_in, path, scene_of, sweep
-from phframe.testing.physics.stand import Film, Stand, on_stand
+from phframe.testing.physics.stand import PhysicsStand, WatchLog, on_stand
 from phframe.testing.subjects import PhysicsUnderTest
 
 STEP = 0.02
@@ -104,7 +104,7 @@ def waiting_for_rest_changes_nothing_before(subject: PhysicsUnderTest) -> Faults
     """Physics.execute: settle=None means only not to wait; up to the trajectory's end the same happens either way."""
     with on_stand(subject, crowd()) as stand:
         trajectory = stand.trajectory(stand.start, CROWD_SWEEP)
-        films = [Film(1.0 / 60.0), Film(1.0 / 60.0)]
+        films = [WatchLog(1.0 / 60.0), WatchLog(1.0 / 60.0)]
         motions = [
             stand.physics.simulate(stand.start, trajectory, settle=settle, watch=film.watch).motion
             for settle, film in zip((Settle(), None), films, strict=True)
@@ -147,7 +147,7 @@ def a_watcher_sees_it_all(subject: PhysicsUnderTest) -> Faults:
     """Watch: a look at the beginning, once in every period, settling included, and at the end."""
     with on_stand(subject, crowd()) as stand:
         for period in (0.05, 0.25):
-            film = Film(period)
+            film = WatchLog(period)
             made = stand.run(stand.start, CROWD_SWEEP, watch=film.watch)
             times = np.array(film.times)
             if len(times) < 2:
@@ -208,7 +208,7 @@ def stops_at_a_wall(subject: PhysicsUnderTest) -> Faults:
         yield from expect_equal(walls, {"south wall"}, "the walls touched")
 
 
-def _from(stand: Stand, state: State, offset: list[float]) -> Trajectory:
+def _from(stand: PhysicsStand, state: State, offset: list[float]) -> Trajectory:
     """A short trajectory that begins a little off where the arm is."""
     assert state.arm is not None
     begin = state.arm.gripper + np.array(offset)
@@ -217,7 +217,7 @@ def _from(stand: Stand, state: State, offset: list[float]) -> Trajectory:
     return stand.trajectory(State(state.poses, state.conditions, arm=shifted), path([begin, end], [Phase.INSERT]))
 
 
-def _joints_at(stand: Stand, gripper: FloatArray, seed: FloatArray | None) -> FloatArray | None:
+def _joints_at(stand: PhysicsStand, gripper: FloatArray, seed: FloatArray | None) -> FloatArray | None:
     """Joint values near others, where those are known: an arm of many joints has other ones for the same gripper."""
     if seed is None:
         return None
