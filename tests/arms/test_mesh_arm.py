@@ -62,11 +62,12 @@ def test_it_passes_the_conformance_checks_and_is_drawn(arm: DescribedArm) -> Non
 def test_mujoco_has_its_hulls_where_the_boxes_are_and_needs_no_files(arm: DescribedArm) -> None:
     mujoco = pytest.importorskip("mujoco")
     from phframe.backends.mujoco_.arm import arm_spec
+    from phframe.backends.mujoco_.options import MujocoOptions
 
-    models = [arm_spec(each, give=0.01, finger_give=0.001, friction=(1.0, 0.0, 0.0)).compile() for each in (arm, BOXES)]
+    models = [arm_spec(each, MujocoOptions()).compile() for each in (arm, BOXES)]
     for meshes, boxes in zip(*(_seen(mujoco, model) for model in models), strict=True):
         assert meshes == pytest.approx(boxes, abs=1e-5)
-    spec = arm_spec(arm, give=0.01, finger_give=0.001, friction=(1.0, 0.0, 0.0))
+    spec = arm_spec(arm, MujocoOptions())
     spec.compile()
     assert mujoco.MjSpec.from_string(spec.to_xml()).compile().nmesh == 10
 

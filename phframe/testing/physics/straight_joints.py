@@ -1,4 +1,4 @@
-"""A plain way from gripper trajectories to joints, for backends that execute those."""
+"""Joint trajectories by inverse kinematics alone, for backends that execute those; nothing is in the way."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ HURRY = 0.5
 """Fraction of a joint's speed limit at which it moves to the beginning."""
 
 
-def lift_straight(
+def plan_straight(
     trajectory: GripperTrajectory, state: State, arm: ArmModel[Any], base_pose: BasePose
 ) -> JointTrajectory:
     """Joints straight from where they are to the beginning, then along the trajectory by inverse kinematics.
@@ -50,14 +50,14 @@ def lift_straight(
     _refuse_hurry(times, joints, arm)
     openings = np.array([trajectory.at(time)[1] for time in times])
     phases = [Phase.APPROACH] * (len(approach) - 1) + [trajectory.phase_at((a + b) / 2) for a, b in pairwise(times)]
-    lifted = GripperTrajectory(
+    followed = GripperTrajectory(
         all_times,
         np.array([*seen, *gripper]),
         np.concatenate([np.full(len(approach) - 1, openings[0]), openings]),
         tuple(phases),
         trajectory.force_limit,
     )
-    return JointTrajectory(lifted, positions, _speeds(all_times, positions))
+    return JointTrajectory(followed, positions, _speeds(all_times, positions))
 
 
 def _joints(state: State, arm: ArmModel[Any], base_pose: BasePose) -> FloatArray:
