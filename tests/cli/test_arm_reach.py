@@ -62,8 +62,10 @@ def test_without_matplotlib_it_says_what_to_install(run: Run, tmp_path: Path, wo
         (["reach", "--mount", "1", "0"], "--mount"),
         (["reach", "--option", "margin=1"], "no planner here"),
         (["reach", "--option", "arm.link_width=0"], "link_width"),
-        (["reach", "--out", "-"], "standard output"),
-        (["reach", "--out", "."], "directory"),
+        (["reach", "--out", "-"], "--out FILE.png"),
+        (["reach", "--out", "."], "--out FILE.png"),
+        (["reach", "--out", "reach.jpg", "--scene", "no/such"], "--out FILE.png"),
+        (["reach", "--out", "reach"], "--out FILE.png"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )

@@ -23,7 +23,7 @@ SCENE = Scene("s", SHELF, (cylinder("near", 0.15, MIDDLE), cylinder("target", 0.
 def model_of(arm: Any, scene: Scene = SCENE) -> CollisionModel:
     said = arm.description
     base_pose = arm.default_base_pose(scene.shelf)
-    model = CollisionModel(arm.urdf(), said.joints, said.fingers, said.overlapping, scene, base_pose)
+    model = CollisionModel(arm.urdf(), said.joints, said.fingers, said.allowed_collisions, scene, base_pose)
     model.place(scene.initial_state())
     model.allow([])
     model.open(np.array([joint.lower for joint in arm.fingers.joints]))
