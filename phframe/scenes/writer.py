@@ -15,6 +15,7 @@ from phframe.core.files import write_file
 from phframe.core.paths import user_path
 from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, ScenePart
+from phframe.scenes.shapes import figures_of
 from phframe.scenes.yaml_scalars import plain_scalar
 from phframe.scenes.yaml_tree import YamlTree
 
@@ -62,9 +63,7 @@ def _content(scene: Scene) -> dict[str, Any]:
 def _object(item: SceneObject) -> dict[str, Any]:
     return {
         "id": item.id,
-        "shape": item.shape.kind,
-        "radius": float(item.shape.radius),
-        "height": float(item.shape.height),
+        **figures_of(item.shape),
         "position": [float(v) for v in item.position],
         "yaw": float(item.yaw),
         "mass": float(item.mass),

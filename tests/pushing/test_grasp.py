@@ -131,7 +131,7 @@ def test_it_is_refused_only_where_at_every_yaw_something_is_in_the_way(scene: Sc
     found = grasp(scene)
     if isinstance(found, Action):
         return
-    ways = [_touched(scene, yaw, past, clearance) for past, clearance in FITS for yaw in YAW_STEPS]
+    ways = [_touched(scene, yaw, past, clearance) for past, clearance in FITS for yaw in YAW_STEPS[:7]]
     touched = [names for names in ways if names is not None]
     assert all(touched) or found.reason.startswith("grasp blocked by a wall")
     if found.blockers:
@@ -162,7 +162,8 @@ def _drawn_back(outline: Outline, length: float) -> Outline:
 def test_the_yaw_deviates_by_up_to_15_degrees_either_way() -> None:
     assert YAW_STEPS[0] == 0.0
     assert sorted(YAW_STEPS) == pytest.approx(sorted(-step for step in YAW_STEPS))
-    assert PushingOptions().max_grasp_turn == pytest.approx(math.radians(15.0))
+    assert PushingOptions().max_grasp_turn == pytest.approx(math.radians(15.0), abs=1e-4)
+    assert max(YAW_STEPS[:7]) == pytest.approx(math.radians(15.0))
     scene = scene_of((0.4, 0.3))
     for turn, tried in ((0.0, 1), (math.radians(15.0), 7), (math.radians(25.0), 11)):
         yaws = {action.path.poses[0, 2] for action in every_grasp(scene, PushingOptions(max_grasp_turn=turn))}
