@@ -19,10 +19,6 @@ from phframe.core import (
     Scene,
     State,
     Unreachable,
-    compose,
-    inverse,
-    planar_pose,
-    yaw_of,
 )
 from phframe.motion.budget import Budget
 from phframe.motion.cartesian_following import CartesianFollower
@@ -123,7 +119,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
             return self.arm.home, self.arm.shape.min_opening
         joints = state.arm.joints
         if joints is None:
-            joints = self.arm.inverse(self._in_base(state.arm.gripper), self.arm.home)
+            joints = self.arm.inverse(self.arm.fingertip_pose(state.arm.gripper, self.base_pose), self.arm.home)
         return joints, state.arm.commanded_opening
 
     def _planned(
@@ -138,14 +134,14 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
     def _onwards(self, problem: _Problem) -> JointTrajectory | Unreachable:
         """The path from where the arm is; what it touches there, it may touch until it has got away."""
         begin = problem.begin
-        found = self._paths(problem, start=begin).onwards(begin, self._seen(begin))
+        found = self._paths(problem, start=begin).onwards(begin, self.arm.gripper_pose(begin, self.base_pose))
         if isinstance(found, Unreachable):
             return found
         return self._time_parametrisation.trajectory([*leg_segments(found, problem.path, problem.opening)])
 
     def _begins_here(self, problem: _Problem) -> bool:
         """Whether a path begins where the gripper is."""
-        x, y, yaw = (self._seen(problem.begin) - problem.path.poses[0]).tolist()
+        x, y, yaw = (self.arm.gripper_pose(problem.begin, self.base_pose) - problem.path.poses[0]).tolist()
         return math.hypot(x, y) < SAME_POSITION and abs(math.remainder(yaw, math.tau)) < SAME_YAW
 
     def _approached(
@@ -218,12 +214,3 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         ik = DifferentialIK(self._kinematics, self._objective, context.obstacles(self.scene))
         checker = self._collisions.checker(context)
         return CartesianFollower(ik, checker, self.base_pose, self.arm.shape.height, self._names)
-
-    def _seen(self, q: FloatArray) -> FloatArray:
-        """The gripper's pose seen from above ``(3,)`` at joint values ``(dof,)``."""
-        pose = compose(self.base_pose.pose, self.arm.forward(q))
-        return np.array([pose[0], pose[1], yaw_of(pose)])
-
-    def _in_base(self, gripper: FloatArray) -> FloatArray:
-        x, y, yaw = gripper.tolist()
-        return compose(inverse(self.base_pose.pose), planar_pose(x, y, self.arm.shape.height, yaw))

@@ -162,7 +162,7 @@ class OtherNames(Rewritten):
 
 
 class OtherAxis(Rewritten):
-    old, new = '<axis xyz="1 0 0" />', '<axis xyz="0 0 1" />'
+    old, new = '<axis xyz="1.0 0.0 0.0" />', '<axis xyz="0.0 0.0 1.0" />'
 
 
 class FingersUpwards(Rewritten):

@@ -10,7 +10,7 @@ import pytest
 
 import phframe
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.core import ArmModel, IncompatibleError, JointTrajectory, OptionError, RunSpec, Scene, Status, Step
+from phframe.core import IncompatibleError, JointTrajectory, OptionError, RunSpec, Scene, Status, Step
 from phframe.runtime.observer import Frames, MountedArm, Observer
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.summary import summarize
@@ -79,7 +79,7 @@ def test_prediction_errors_are_those_of_what_moved() -> None:
 
 
 def test_an_arm_without_a_motion_planner_is_refused_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(PlanarArm, "motion_planner", ArmModel.motion_planner)
+    monkeypatch.delattr(PlanarArm, "motion_planner")
     with pytest.raises(IncompatibleError, match="PlanarArm has no motion planner") as found:
         World(WorldSpec(find_scene(SCENE), backend="mujoco"))
     assert "\n" not in str(found.value)

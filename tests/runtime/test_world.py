@@ -138,10 +138,10 @@ def test_what_cannot_be_built_is_refused(spec: WorldSpec, error: type[Exception]
 def test_a_backend_that_drives_joints_needs_a_motion_planner(monkeypatch: pytest.MonkeyPatch) -> None:
     from phframe.arms.planar import PlanarArm
     from phframe.backends.pymunk_.physics import PymunkPhysics
-    from phframe.core import ArmModel, JointTrajectory
+    from phframe.core import JointTrajectory
 
     monkeypatch.setattr(PymunkPhysics, "executes", JointTrajectory)
-    monkeypatch.setattr(PlanarArm, "motion_planner", ArmModel.motion_planner)
+    monkeypatch.delattr(PlanarArm, "motion_planner")
     with pytest.raises(IncompatibleError, match="no motion planner"):
         PlanningWorld(WorldSpec(BASIC))
 

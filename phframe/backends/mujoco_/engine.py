@@ -16,7 +16,7 @@ from phframe.backends.contract import GRAVITY
 from phframe.backends.mujoco_.model import build_model
 from phframe.backends.mujoco_.options import MujocoOptions
 from phframe.backends.mujoco_.shelf import BOARD, ENDING_BOARD, meets
-from phframe.core import ArmModel, BasePose, FloatArray, Scene, planar_pose, yaw_of
+from phframe.core import ArmModel, BasePose, FloatArray, Scene, planar_pose, seen_from_above
 
 AWAY = 10.0
 """What has spilled is put this far before the mouth (m), where it meets nothing."""
@@ -72,12 +72,11 @@ class MujocoEngine:
         """The arm as it is now."""
         model, data = self.model, self.data
         mujoco.mj_kinematics(model.mj, data)  # a step leaves poses one step behind the joints
-        pose = np.concatenate([data.xpos[model.tip], data.xquat[model.tip]])
         return ArmReading(
             joints=data.qpos[model.joints],
             fingers=data.qpos[model.fingers],
             commanded_fingers=data.ctrl[model.dof :].copy(),
-            gripper=np.array([pose[0], pose[1], yaw_of(pose)]),
+            gripper=seen_from_above(np.concatenate([data.xpos[model.tip], data.xquat[model.tip]])),
             efforts=np.abs(data.actuator_force[: model.dof]),
             inertias=model.mj.dof_M0[model.speeds],
         )

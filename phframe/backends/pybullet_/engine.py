@@ -18,7 +18,7 @@ from phframe.backends.pybullet_.output_capture import bullet
 from phframe.backends.pybullet_.shelf import Bodies, build_shelf, set_held
 from phframe.backends.pybullet_.sleeping import LOOK, Rest
 from phframe.backends.pybullet_.urdf import prepared_urdf
-from phframe.core import ArmModel, BasePose, FloatArray, Scene, yaw_of
+from phframe.core import ArmModel, BasePose, FloatArray, Scene, seen_from_above
 
 NEAR = 1e-5
 """Bodies this close (m) touch, whether or not they press; Bullet tells of what is farther, too."""
@@ -105,7 +105,7 @@ class PybulletEngine:
             joints=values[:dof],
             fingers=values[dof:],
             commanded_fingers=np.array(self._way[-1][dof:]),
-            gripper=np.array([x, y, yaw_of((x, y, z, qw, qx, qy, qz))]),
+            gripper=seen_from_above((x, y, z, qw, qx, qy, qz)),
             efforts=np.abs([state[3] for state in states[:dof]]),
             inertias=self._inertias(),
         )

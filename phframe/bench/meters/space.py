@@ -14,7 +14,7 @@ from phframe.bench.meters.calibrate import BEFORE, Calibration, calibrate
 from phframe.bench.meters.motion_planning import ARM, MotionPlanning, measure_motion_planning
 from phframe.bench.meters.simulation import BARE, BARS, Simulation, measure_simulation
 from phframe.bench.meters.sweeps import Prediction, compare, outcomes, planned_sweeps, score
-from phframe.core import NotInstalledError
+from phframe.core import NotInstalledError, motion_planner_of
 from phframe.registry import Kind, create, load
 from phframe.runtime.run import PLAN_OPTIONS
 from phframe.runtime.scenes import find_scene
@@ -60,7 +60,7 @@ def _can_move(arm: str) -> bool:
     try:
         model = create(Kind.ARM, arm)
         scene = find_scene("vieira/basic")
-        model.motion_planner(scene, model.default_base_pose(scene.shelf))
+        motion_planner_of(model, scene, model.default_base_pose(scene.shelf))
     except NotInstalledError:
         return False
     return True
