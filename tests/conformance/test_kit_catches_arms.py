@@ -166,7 +166,7 @@ class OtherAxis(Rewritten):
 
 
 class FingersUpwards(Rewritten):
-    old, new = '<axis xyz="0 -1 0" />', '<axis xyz="0 0 1" />'
+    old, new = '<axis xyz="0.0 -1.0 0.0" />', '<axis xyz="0 0 1" />'
 
 
 class Weightless(Rewritten):
