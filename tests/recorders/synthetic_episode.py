@@ -9,15 +9,15 @@ import numpy as np
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.core import (
+    ROOT,
     Action,
+    ActionKind,
     ArmState,
     Condition,
     Contact,
     Contacts,
-    Corridor,
     Cost,
     Cylinder,
-    Decision,
     Episode,
     FloatArray,
     GripperPath,
@@ -26,17 +26,19 @@ from phframe.core import (
     Phase,
     PhaseRule,
     Plan,
-    Rectangle,
     Scene,
     SceneObject,
+    SearchTree,
     Setup,
     Shelf,
     State,
     Status,
     Step,
+    Transition,
     planar_pose,
     time_path,
 )
+from phframe.pushing import Corridor, PushDecision, Rectangle
 from phframe.runtime.observer import MountedArm
 
 PERIOD = 1.0 / 30.0
@@ -76,23 +78,28 @@ def hand_made() -> Recorded:
         _grasp(second, third),
     )
     plans = (
-        Plan(
-            Status.RETRIEVED,
-            actions=(steps[0].action,),
-            expected=(first,),
-            decisions=(steps[0].decision,),
-            cost=Cost(0.03, 0.002, 0.02, 0.0, 4),
-        ),
-        Plan(
-            Status.RETRIEVED,
-            actions=tuple(s.action for s in steps[1:]),
-            expected=(second, third),
-            decisions=tuple(s.decision for s in steps[1:]),
-            cost=Cost(0.01),
-        ),
+        _plan(start, steps[:1], Cost(0.03, 0.002, 0.02, 0.0, 4)),
+        _plan(first, steps[1:], Cost(0.01)),
     )
     episode = Episode(SCENE, SETUP, Status.RETRIEVED, "", plans, steps)
     return Recorded(episode, mounted(), tuple(tuple(_frames(step)) for step in steps))
+
+
+def _plan(start: State, steps: tuple[Step, ...], cost: Cost) -> Plan:
+    expected = [(s.action, s.expected, s.decision) for s in steps if s.expected is not None]
+    return replace(Plan.of(Status.RETRIEVED, "", start, expected), cost=cost)
+
+
+def failed_plan() -> Plan:
+    """Of four pushes: two in a row, then nothing more that moves anything, and one that was not gone on from."""
+    steps = hand_made().episode.steps
+    tree = SearchTree(steps[0].before)
+    ends = [Transition(step.after, step.motion) for step in steps]
+    first = tree.child(ROOT, steps[0].action, ends[0], steps[0].decision, value=-1.0)
+    tree.child(ROOT, steps[1].action, ends[1], steps[1].decision, closed="something spilled")
+    second = tree.child(first, steps[1].action, ends[1], steps[1].decision)
+    tree.child(second, steps[0].action, replace(ends[1], state=steps[1].after), closed="nothing moved")
+    return Plan(Status.FAILED, "no sweep fits", tree.explored(second))
 
 
 def mounted(*, by_joints: bool = False) -> MountedArm:
@@ -101,9 +108,9 @@ def mounted(*, by_joints: bool = False) -> MountedArm:
     return MountedArm(arm, arm.default_base_pose(SCENE.shelf), by_joints)
 
 
-def _first_decision() -> Decision:
+def _first_decision() -> PushDecision:
     diagram = PersistenceDiagram(np.zeros(3), np.array([0.0762, 0.1523, np.inf]))
-    return Decision(
+    return PushDecision(
         corridor=CORRIDOR,
         members=("object_1", "object_2", "object_3"),
         diagram=diagram,
@@ -115,24 +122,22 @@ def _first_decision() -> Decision:
     )
 
 
-def _second_decision() -> Decision:
+def _second_decision() -> PushDecision:
     diagram = PersistenceDiagram(np.zeros(1), np.array([np.inf]))
     labels, point = np.array([0]), np.array([0.33, 0.25])
-    return Decision(
-        CORRIDOR,
-        ("object_3",),
-        diagram,
-        (),
-        0.08,
-        labels,
-        ("object_3",),
-        Rectangle(point, point),
-        None,
-        ("fallback radius",),
+    return PushDecision(
+        deviations=("fallback radius",),
+        corridor=CORRIDOR,
+        members=("object_3",),
+        diagram=diagram,
+        radius=0.08,
+        labels=labels,
+        chosen=("object_3",),
+        rectangle=Rectangle(point, point),
     )
 
 
-def _sweep(name: str, before: State, after: State, decision: Decision) -> Step:
+def _sweep(name: str, before: State, after: State, decision: PushDecision) -> Step:
     lane, end = (0.2, 0.4) if "north" in name else (0.4, 0.2)
     poses = np.array([[-0.05, lane, 0.0], [0.2, lane, 0.0], [0.2, end, 0.0], [-0.05, end, 0.0]])
     path = GripperPath(poses, (Phase.INSERT, Phase.SWEEP, Phase.RETREAT), RULES)
@@ -145,10 +150,13 @@ def _sweep(name: str, before: State, after: State, decision: Decision) -> Step:
 
 def _grasp(before: State, after: State) -> Step:
     poses = np.array([[-0.05, 0.3, 0.0], [0.4, 0.3, 0.0], [0.4, 0.3, 0.0], [-0.12, 0.3, 0.0]])
-    rules = {**RULES, Phase.REACH: PhaseRule(0.25, 0.07, Contacts.TARGET)}
-    action = Action("grasp mug", GripperPath(poses, (Phase.REACH, Phase.GRASP, Phase.WITHDRAW), rules), ("mug",))
+    rules = {**RULES, Phase.REACH: PhaseRule(0.25, 0.07, Contacts.MANIPULAND)}
+    path = GripperPath(poses, (Phase.REACH, Phase.GRASP, Phase.WITHDRAW), rules, "mug")
+    action = Action("grasp mug", path, ("mug",), ActionKind.GRASP)
     motion = Motion(4.0, wall_contacts=(Contact(3.9, "north wall", Phase.WITHDRAW),), largest_force=3.0)
-    return Step(action, time_path(action.path, 0.0, 60.0), before, after, after, motion, Decision(CORRIDOR), 1)
+    return Step(
+        action, time_path(action.path, 0.0, 60.0), before, after, after, motion, PushDecision(corridor=CORRIDOR), 1
+    )
 
 
 def _moved(
@@ -173,7 +181,7 @@ def _frames(step: Step) -> Iterator[tuple[float, State]]:
     for number, time in enumerate(times):
         pose, opening = step.trajectory.at(min(time, step.trajectory.duration))  # type: ignore[union-attr]
         half_over = 2.0 * time >= step.motion.duration
-        late = number >= len(times) - 10 or (step.action.grasps and half_over)
+        late = number >= len(times) - 10 or (step.action.kind is ActionKind.GRASP and half_over)
         world = step.after if late else step.before
         poses = _between(step, max(0.0, 2.0 * time / step.motion.duration - 1.0))
         yield float(time), replace(world, poses=poses, arm=ArmState(pose, opening))
