@@ -33,4 +33,6 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'phframe' has no attribute {name!r}")
     from importlib import import_module
 
+    if name == "load":
+        import_module("phframe.pushing")  # whose decisions episodes hold
     return getattr(import_module(_LAZY[name]), "API_VERSION" if name == "api_version" else name)

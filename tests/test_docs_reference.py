@@ -59,6 +59,8 @@ def classes() -> Mapping[str, frozenset[str]]:
 
 @each_page(PAGES)
 def test_names_in_the_text_exist(page: Path) -> None:
+    if page.name == "migration.md":  # it names what was
+        return
     for text in quoted(page):
         if re.fullmatch(r"[A-Z][a-z]+[A-Za-z]*(\.\w+)?", text):
             name, _, member = text.partition(".")

@@ -1,7 +1,9 @@
 """A planner in one file. Try it: phframe solve --planner docs/examples/best_next_push.py:BestNextPush."""
 
+from collections.abc import Iterator
+
 from phframe.core import ROOT, Plan, Planner, Task
-from phframe.pushing import PushingOptions, PushProblem, PushSearch
+from phframe.pushing import Proposal, PushingOptions, PushProblem, PushSearch
 
 
 class BestNextPush(Planner[PushingOptions]):
@@ -22,7 +24,7 @@ class BestNextPush(Planner[PushingOptions]):
             node = best
         return search.finish(node, step)
 
-    def pushes(self, search: PushSearch, problem: PushProblem):
+    def pushes(self, search: PushSearch, problem: PushProblem) -> Iterator[Proposal]:
         """The pushes of the closest component at every usable radius, and at the least distance that lets the gripper in."""
         diagram = search.pushing.diagram(problem)
         for radius in [*search.pushing.radii(diagram), search.pushing.threshold]:

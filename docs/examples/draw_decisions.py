@@ -7,6 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from phframe.core import Episode, FloatArray, Scene, Step
+from phframe.pushing import PushDecision
 
 COMPONENTS = ("#2f80c2", "#8a5fd3", "#2e9e5b", "#d4559b", "#2aa39b", "#8d9b1f")
 TARGET, OBSTACLE = "#f0a020", "#a9b2bd"
@@ -26,7 +27,8 @@ def draw(episode: Episode, file: str | Path) -> None:
 
 
 def _draw_decision(axes: Any, step: Step) -> None:
-    corridor, rectangle = step.decision.corridor, step.decision.rectangle
+    decision = PushDecision.of(step.decision)
+    corridor, rectangle = decision.corridor, decision.rectangle
     if corridor is not None:
         low, high = corridor.axis - corridor.half_width, corridor.axis + corridor.half_width
         strip = [[corridor.start, low], [corridor.end, low], [corridor.end, high], [corridor.start, high]]
@@ -40,7 +42,7 @@ def _draw_decision(axes: Any, step: Step) -> None:
 
 
 def _draw_objects(axes: Any, scene: Scene, step: Step) -> None:
-    decision = step.decision
+    decision = PushDecision.of(step.decision)
     labels = dict(zip(decision.members, () if decision.labels is None else decision.labels, strict=False))
     for item, before, after in zip(scene.objects, step.before.positions, step.after.positions, strict=True):
         color = COMPONENTS[labels[item.id] % len(COMPONENTS)] if item.id in labels else OBSTACLE

@@ -31,9 +31,10 @@ from phframe.core.plan import Cost, Plan
 from phframe.core.planner import Planner
 from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, tilt_of, yaw_of
 from phframe.core.rejection import Rejection
-from phframe.core.scene import BasePose, Scene, SceneObject, Shelf, coulomb_with_board
+from phframe.core.scene import Scene, coulomb_with_board
 from phframe.core.search_tree import ROOT, ExploredTree, SearchNode, SearchTree
 from phframe.core.shape import Cylinder, Shape
+from phframe.core.shelf import BasePose, SceneObject, Shelf
 from phframe.core.state import ArmState, Condition, State
 from phframe.core.state_check import refuse_foreign
 from phframe.core.status import Status

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 from phframe.core.errors import ArmError, IncompatibleError
 from phframe.core.mesh import LinkMesh
 from phframe.core.options import Options
-from phframe.core.scene import BasePose, Scene, Shelf
+from phframe.core.scene import Scene
+from phframe.core.shelf import BasePose, Shelf
 from phframe.core.value import FloatArray, Floats, Value
 
 if TYPE_CHECKING:

@@ -10,7 +10,8 @@ import numpy as np
 from phframe.core.arm import ArmModel
 from phframe.core.gripper_path import GripperPath
 from phframe.core.options import Options
-from phframe.core.scene import BasePose, Scene
+from phframe.core.scene import Scene
+from phframe.core.shelf import BasePose
 from phframe.core.state import State
 from phframe.core.trajectory import JointTrajectory
 from phframe.core.unreachable import Unreachable

@@ -12,7 +12,8 @@ from phframe.core.arm import ArmModel
 from phframe.core.errors import InputError
 from phframe.core.motion import Motion, Transition
 from phframe.core.options import Options
-from phframe.core.scene import BasePose, Scene
+from phframe.core.scene import Scene
+from phframe.core.shelf import BasePose
 from phframe.core.state import State
 from phframe.core.trajectory import GripperTrajectory, JointTrajectory, Trajectory
 from phframe.core.value import FloatArray

@@ -51,6 +51,11 @@ class Shape(ABC):
     def support(self, direction: FloatArray) -> float:
         """Support function h(d) = max over its points p of p . d, for a unit vector ``(2,)`` in its frame (m)."""
 
+    @property
+    def landmarks(self) -> FloatArray:
+        """Points ``(k, 2)`` in its frame that stand for it when objects are grouped by persistent homology: its centre (m)."""
+        return np.zeros((1, 2))
+
     @abstractmethod
     def inertia(self, mass: float) -> FloatArray:
         """Moments of inertia ``(3,)`` about its axes x, y, z for a mass (kg), evenly dense (kg m^2)."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from phframe.core.scene import Shelf
+from phframe.core.shelf import Shelf
 
 Vector = tuple[float, float, float]
 BOARD = "board"

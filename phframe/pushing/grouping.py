@@ -48,6 +48,25 @@ def closest_component(local: FloatArray, labels: IntArray, axis: float) -> IntAr
     return np.flatnonzero(labels == labels[nearest])
 
 
+def merged_labels(labels: IntArray, owners: IntArray) -> IntArray:
+    """The component of each owner, where an owner with points in several components makes them one.
+
+    Args:
+        labels: Component of each point ``(m,)``, counted in the order of first appearance.
+        owners: Whose each point is ``(m,)``: 0, 0, 1, ... without a gap.
+
+    Returns:
+        ``(k,)``, counted in the order of first appearance among the owners.
+    """
+    joined = labels.copy()
+    for owner in range(int(owners.max(initial=-1)) + 1):
+        own = joined[owners == owner]
+        joined[np.isin(joined, own)] = own.min()
+    firsts = joined[np.unique(owners, return_index=True)[1]]
+    order = {label: number for number, label in enumerate(dict.fromkeys(firsts.tolist()))}
+    return np.array([order[label] for label in firsts.tolist()], dtype=np.int64)
+
+
 def bounding_rectangle(local: FloatArray) -> Rectangle:
     """The smallest axis-parallel rectangle around centres ``(n, 2)`` in the corridor frame."""
     return Rectangle(local.min(axis=0), local.max(axis=0))

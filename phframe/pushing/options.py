@@ -29,7 +29,7 @@ class PushingOptions(Options):
         reach_speed: Reaching for the target and drawing it out (m/s).
         wall_clearance: Kept between the sweeping arm and the walls (m).
         lane_clearance: Kept between the arm going in and the component it goes in beside (m).
-        target_clearance: The sweeping fingertip comes no nearer to the target's centre than this many of its radii.
+        target_clearance: Least distance of the sweeping fingertip from the target's centre (radii).
         max_tilt: Greatest tilt of the sweeping arm against the corridor (rad); 0: the paper's sweeps.
         neighbour_clearance: Kept between the reaching arm and walls and objects (m).
         max_grasp_turn: Greatest deviation of the reaching gripper from the corridor's axis (rad).
@@ -47,7 +47,7 @@ class PushingOptions(Options):
     wall_clearance: Clearance = 0.002
     lane_clearance: Clearance = 0.005
     target_clearance: Annotated[float, Field(ge=1.0, le=10.0)] = 1.2
-    max_tilt: Annotated[float, Field(ge=0.0, le=math.pi / 4.0)] = math.radians(30.0)
+    max_tilt: Annotated[float, Field(ge=0.0, le=math.pi / 4.0)] = 0.5236
     neighbour_clearance: Clearance = 0.002
-    max_grasp_turn: Annotated[float, Field(ge=0.0, le=math.pi / 4.0)] = math.radians(15.0)
+    max_grasp_turn: Annotated[float, Field(ge=0.0, le=math.pi / 4.0)] = 0.2618
     withdrawal: Annotated[float, Field(gt=0.0, le=1.0)] = 0.10

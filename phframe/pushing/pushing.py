@@ -7,12 +7,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from phframe.core import Action, Condition, Infeasible, IntArray, PersistenceDiagram, State, Task
+from phframe.core import (
+    Action,
+    Condition,
+    FloatArray,
+    Infeasible,
+    IntArray,
+    PersistenceDiagram,
+    State,
+    Task,
+    rotation_matrix,
+    yaw_of,
+)
 from phframe.geometry.arm_view import ArmView
 from phframe.pushing.corridor import corridor_half_width, find_corridor
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.grasp import Grasp, grasp_action
-from phframe.pushing.grouping import closest_component
+from phframe.pushing.grouping import closest_component, merged_labels
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
 from phframe.pushing.push_decision import PushDecision
@@ -65,8 +76,24 @@ class Pushing:
         return PushProblem(state, corridor, members, corridor.to_local(state.positions[members]), tuple(blockers))
 
     def diagram(self, problem: PushProblem) -> PersistenceDiagram:
-        """The persistence diagram of the obstacles that count."""
-        return self.task.diagram(problem.local)
+        """The persistence diagram of the obstacles that count, by their landmarks: of cylinders, the centres."""
+        return self.task.diagram(self._landmarks(problem)[0])
+
+    def components(self, problem: PushProblem, radius: float) -> IntArray:
+        """The component of each member ``(k,)`` at a radius (m); what an object has landmarks in is one."""
+        points, owners = self._landmarks(problem)
+        return merged_labels(self.task.components(points, radius), owners)
+
+    def _landmarks(self, problem: PushProblem) -> tuple[FloatArray, IntArray]:
+        """Landmarks ``(m, 2)`` of the members in the corridor frame (m), and the member that each belongs to ``(m,)``."""
+        shapes = [self.scene.objects[row].shape for row in problem.members]
+        own = [shape.landmarks for shape in shapes]
+        if not any(points.any() for points in own):
+            return problem.local, np.arange(len(own))
+        yaws = [yaw_of(pose) - problem.corridor.angle for pose in problem.state.poses[problem.members]]
+        turned = [points @ rotation_matrix(yaw).T for points, yaw in zip(own, yaws, strict=True)]
+        placed = [points + center for points, center in zip(turned, problem.local, strict=True)]
+        return np.vstack(placed), np.repeat(np.arange(len(own)), [len(points) for points in own])
 
     def radii(self, diagram: PersistenceDiagram) -> list[float]:
         """The usable radii, ascending (m): persistent by the margin nu and above the threshold h."""
@@ -84,7 +111,7 @@ class Pushing:
             radius: At which to group (m).
             deviations: Those that led to the radius.
         """
-        labels = self.task.components(problem.local, radius)
+        labels = self.components(problem, radius)
         chosen = closest_component(problem.local, labels, problem.corridor.axis)
         persistent = tuple(persistent_radii(diagram.finite_deaths, self.options.margin).tolist())
         blocked = (Deviation.GRASP_BLOCKED,) if problem.blockers else ()

@@ -2,88 +2,92 @@
 
 from __future__ import annotations
 
-from phframe.registry.extension import Extension, Kind
+from functools import partial
+
+from phframe.registry.extension import API_VERSION, Extension, Kind
 from phframe.registry.hookspec import hookimpl
 
+_own = partial(Extension, api_version=API_VERSION)
+
 EXTENSIONS = [
-    Extension(
+    _own(
         Kind.PLANNER,
         "phia",
         "phframe.planners.phia:PHIA",
         "Pushes the closest group of obstacles, grouped by persistent homology, until the corridor is empty",
     ),
-    Extension(
+    _own(
         Kind.PLANNER, "ooa", "phframe.planners.ooa:OOA", "Pushes one obstacle at a time, the closest first; no grouping"
     ),
-    Extension(
+    _own(
         Kind.BACKEND,
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
         "The shelf from above, in 2D, with Coulomb friction: fast",
     ),
-    Extension(
+    _own(
         Kind.BACKEND,
         "mujoco",
         "phframe.backends.mujoco_.physics:MujocoPhysics",
         "The shelf in 3D with MuJoCo: objects tip, roll and fall, the arm is moved by its joints",
         extra="mujoco",
     ),
-    Extension(
+    _own(
         Kind.BACKEND,
         "pybullet",
         "phframe.backends.pybullet_.physics:PybulletPhysics",
         "The shelf in 3D with PyBullet: a second opinion on MuJoCo's",
         extra="pybullet",
     ),
-    Extension(Kind.ARM, "planar", "phframe.arms.planar:PlanarArm", "A gripper on a straight link; slides and turns"),
-    Extension(
+    _own(Kind.ARM, "planar", "phframe.arms.planar:PlanarArm", "A gripper on a straight link; slides and turns"),
+    _own(
         Kind.ARM,
         "baxter",
         "phframe.arms.baxter:Baxter",
         "An arm of Rethink Robotics' Baxter: seven joints, electric gripper",
         extra="baxter",
     ),
-    Extension(
+    _own(
         Kind.ARM,
         "articulated",
         "phframe.arms.articulated:DescribedArm",
         "Any arm, from a URDF and a short description of it",
         extra="baxter",
     ),
-    Extension(
+    _own(
         Kind.TOPOLOGY,
         "ripser",
         "phframe.topology.ripser_:Ripser",
         "Ripser: the paper's engine, quickest for a shelf's few dozen objects",
     ),
-    Extension(
+    _own(
         Kind.TOPOLOGY,
         "single-linkage",
         "phframe.topology.single_linkage:SingleLinkage",
         "SciPy's single linkage: the same diagrams, quickest for hundreds of points",
     ),
-    Extension(
+    _own(
         Kind.GOAL,
         "retrieve",
         "phframe.pushing.retrieve:Retrieve",
         "The target out of the shelf and in the hand: the paper's",
     ),
-    Extension(Kind.SCENES, "vieira", "phframe.scenes.suites:Vieira", "The scenes of Vieira et al. 2022"),
-    Extension(Kind.SCENES, "papallas", "phframe.scenes.suites:Papallas", "The scenes of Papallas and Dogar 2020"),
-    Extension(
+    _own(Kind.SCENES, "vieira", "phframe.scenes.suites:Vieira", "The scenes of Vieira et al. 2022"),
+    _own(Kind.SCENES, "papallas", "phframe.scenes.suites:Papallas", "The scenes of Papallas and Dogar 2020"),
+    _own(
         Kind.SCENES,
         "random",
         "phframe.scenes.generator:RandomScenes",
         "Scenes made from a seed: obstacles in front of a target deep in the shelf",
     ),
-    Extension(
+    _own(
         Kind.RECORDER,
         "rerun",
         "phframe.recorders.rerun_:RerunRecorder",
         "A recording for the Rerun viewer",
         extra="rerun",
     ),
-    Extension(
+    _own(
         Kind.RECORDER,
         "video",
         "phframe.recorders.video_:VideoRecorder",

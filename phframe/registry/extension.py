@@ -9,7 +9,8 @@ from enum import StrEnum
 from phframe.core.errors import PluginError
 
 API_VERSION = 2
-"""Version of the interfaces of ``phframe.core`` that plugins are written against."""
+"""Version of the interfaces that plugins are written against."""
+FIRST_API_VERSION = 1
 
 _NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 _TARGET = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
@@ -38,7 +39,7 @@ class Extension:
         target: Where it is, as ``module:Class``. It is imported only when it is used.
         summary: One line for the listings.
         extra: The extra of its distribution that brings the libraries it needs, such as ``mujoco``; None: none.
-        api_version: The ``API_VERSION`` it was written for.
+        api_version: The ``API_VERSION`` it was written for; where it is not said, the first, which did not ask for it.
 
     Raises:
         PluginError: If the name or the target is not of that form.
@@ -49,7 +50,7 @@ class Extension:
     target: str
     summary: str
     extra: str | None = None
-    api_version: int = API_VERSION
+    api_version: int = FIRST_API_VERSION
 
     def __post_init__(self) -> None:
         if self.kind not in list(Kind):

@@ -6,7 +6,7 @@ A plugin is a module with this function, named in the entry-point group ``phfram
 
     @hookimpl
     def phframe_extensions() -> list[Extension]:
-        return [Extension(Kind.PLANNER, "mine", "my_package.mine:Mine", "What it does, in a line")]
+        return [Extension(Kind.PLANNER, "mine", "my_package.mine:Mine", "What it does, in a line", api_version=2)]
 """
 
 from __future__ import annotations

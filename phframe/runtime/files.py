@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,8 @@ from pydantic import TypeAdapter, ValidationError
 from phframe.core import Episode, InputError, Plan
 from phframe.core.paths import user_path
 
-FORMAT = 1
-"""Of the files; a file of a newer one is refused."""
+FORMAT = 2
+"""Of the files; a file of another one is refused."""
 
 _KINDS: dict[str, type[Plan] | type[Episode]] = {"plan": Plan, "episode": Episode}
 
@@ -31,8 +32,19 @@ def save(value: Plan | Episode, path: str | Path) -> Path:
     kind = next((name for name, cls in _KINDS.items() if isinstance(value, cls)), None)
     if kind is None:
         raise InputError(f"only a Plan or an Episode can be saved, not {value!r}")
-    content = TypeAdapter(type(value)).dump_python(value, mode="json")
+    content = TypeAdapter(type(value)).dump_python(_bounded(value), mode="json")
     return write_whole(user_path(path), json.dumps({"phframe": FORMAT, "kind": kind, kind: content}))
+
+
+def _bounded(value: Plan | Episode) -> Plan | Episode:
+    """The same with search trees of no more nodes than a file holds: large ones are summarised."""
+    if isinstance(value, Plan):
+        return _bounded_plan(value)
+    return replace(value, plans=tuple(map(_bounded_plan, value.plans)))
+
+
+def _bounded_plan(plan: Plan) -> Plan:
+    return plan if plan.tree is None else replace(plan, tree=plan.tree.summarised())
 
 
 def load(path: str | Path) -> Plan | Episode:

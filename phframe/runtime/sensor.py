@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from phframe.core import ArmShape, FloatArray, Scene, State, rotation_matrix
+from phframe.geometry.polygon import signed_distance
 from phframe.runtime.noise import POSITIONS, Noise
 
 ATTEMPTS = 50
@@ -80,17 +81,4 @@ class _Place:
 
     def _gaps_to_arm(self, position: FloatArray) -> Iterator[float]:
         for polygon in self._arm:
-            yield _distance(polygon, position)
-
-
-def _distance(polygon: FloatArray, point: FloatArray) -> float:
-    """From a convex, counter-clockwise polygon ``(k, 2)`` to a point; inside it, what is left to the next edge, negative."""
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    lengths = np.hypot(*edges.T)
-    edges, corners, lengths = edges[lengths > 0.0], polygon[lengths > 0.0], lengths[lengths > 0.0]
-    away = point - corners
-    outside = (away[:, 0] * edges[:, 1] - away[:, 1] * edges[:, 0]) / lengths
-    if (outside <= 0.0).all():
-        return float(outside.max())
-    along = np.clip((away * edges).sum(axis=1) / lengths**2, 0.0, 1.0)
-    return float(np.hypot(*(away - along[:, None] * edges).T).min())
+            yield signed_distance(polygon, position)

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 
 from phframe.core import Scene, SceneObject, Shelf, coulomb_with_board
 from phframe.geometry.slabs import PANEL, slabs
+from phframe.scenes.shapes import geom_of
 
 TARGET_KEY = "target"
 """Of the custom text that names the target's body."""
@@ -89,6 +90,7 @@ def _add_shelf(world: ET.Element, shelf: Shelf) -> None:
 
 def _add_object(world: ET.Element, name: str, item: SceneObject, coefficient: float, colour: str) -> None:
     half = item.shape.height / 2.0
+    kind, size = geom_of(item.shape)
     turned = (math.cos(item.yaw / 2.0), 0.0, 0.0, math.sin(item.yaw / 2.0))
     body = ET.SubElement(world, "body", name=name, pos=_text((*item.position, half)), quat=_text(turned))
     ET.SubElement(body, "freejoint", name=name)
@@ -97,8 +99,8 @@ def _add_object(world: ET.Element, name: str, item: SceneObject, coefficient: fl
         "geom",
         {
             "name": name,
-            "type": "cylinder",
-            "size": _text((item.shape.radius, half)),
+            "type": kind,
+            "size": _text(size),
             "mass": _text((item.mass,)),
             "friction": _text((coefficient, TURNING, ROLLING)),
             "priority": "1",

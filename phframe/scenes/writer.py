@@ -16,6 +16,7 @@ from pydantic import ValidationError
 from phframe.core import InputError, Scene, SceneError, SceneObject
 from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, ScenePart
+from phframe.scenes.shapes import figures_of
 from phframe.scenes.wording import path_shown
 from phframe.scenes.yaml_scalars import plain_scalar
 from phframe.scenes.yaml_tree import YamlTree
@@ -82,9 +83,7 @@ def _content(scene: Scene) -> dict[str, Any]:
 def _object(item: SceneObject) -> dict[str, Any]:
     return {
         "id": item.id,
-        "shape": item.shape.kind,
-        "radius": float(item.shape.radius),
-        "height": float(item.shape.height),
+        **figures_of(item.shape),
         "position": [float(v) for v in item.position],
         "yaw": float(item.yaw),
         "mass": float(item.mass),

@@ -1,4 +1,4 @@
-"""The conformance kit: what authors of planners, backends, arms and topology engines run on their own code.
+"""The conformance kit: what authors of planners, backends, arms, topology engines and goals run on their own code.
 
 Each ``check_...`` runs many small checks, to the last one, and raises one ``ConformanceError`` that lists what was
 expected, what was found and what the contract says. To have a test for each check, parametrise with the tuples::
@@ -10,14 +10,16 @@ expected, what was found and what the contract says. To have a test for each che
 
 from phframe.testing.arm import ARM_CHECKS, check_arm
 from phframe.testing.check import Check, ConformanceError, Failure, Fault, NotApplicableError, Report
+from phframe.testing.goal import GOAL_CHECKS, check_goal
 from phframe.testing.physics import PHYSICS_CHECKS, check_physics
 from phframe.testing.planner import PLANNER_CHECKS, check_planner, order_of_objects_does_not_matter, simulated_tasks
-from phframe.testing.subjects import ArmUnderTest, EngineUnderTest, PhysicsUnderTest, PlannerUnderTest
+from phframe.testing.subjects import ArmUnderTest, EngineUnderTest, GoalUnderTest, PhysicsUnderTest, PlannerUnderTest
 from phframe.testing.tolerances import JOINTED, PLANAR, SPATIAL, PhysicsTolerances
 from phframe.testing.topology import TOPOLOGY_CHECKS, check_topology
 
 __all__ = [
     "ARM_CHECKS",
+    "GOAL_CHECKS",
     "JOINTED",
     "PHYSICS_CHECKS",
     "PLANAR",
@@ -30,12 +32,14 @@ __all__ = [
     "EngineUnderTest",
     "Failure",
     "Fault",
+    "GoalUnderTest",
     "NotApplicableError",
     "PhysicsTolerances",
     "PhysicsUnderTest",
     "PlannerUnderTest",
     "Report",
     "check_arm",
+    "check_goal",
     "check_physics",
     "check_planner",
     "check_topology",

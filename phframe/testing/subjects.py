@@ -12,6 +12,7 @@ from phframe.core import (
     ArmModel,
     BasePose,
     FloatArray,
+    Goal,
     GripperTrajectory,
     JointTrajectory,
     Physics,
@@ -50,6 +51,20 @@ class EngineUnderTest:
 
     def __str__(self) -> str:
         return type(self.engine).__name__
+
+
+@dataclass(frozen=True, slots=True)
+class GoalUnderTest:
+    """A goal.
+
+    Attributes:
+        goal: The goal.
+    """
+
+    goal: Goal[Any]
+
+    def __str__(self) -> str:
+        return type(self.goal).__name__
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,7 +29,7 @@ each_engine = pytest.mark.parametrize(
 def physics(engine: str, scene: Scene, arm: Any = ARM, **options: Any) -> Any:
     """A new backend with an arm at its default base pose."""
     pytest.importorskip(engine)
-    backend = getattr(import_module(f"phframe.backends.{engine}_"), CLASSES[engine])
+    backend = getattr(import_module(f"phframe.backends.{engine}_.physics"), CLASSES[engine])
     return backend(scene, arm, arm.default_base_pose(scene.shelf), backend.options_type(**options))
 
 

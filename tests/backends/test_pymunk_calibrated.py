@@ -28,7 +28,7 @@ def sweep(offset: float, **options: float | None) -> tuple[np.ndarray, np.ndarra
     tips = []
     with PlanningWorld(WorldSpec(scene, backend_options=options)) as world:
         seen = Watch(1 / 240, lambda time, state: tips.append(state.arm.gripper[:2] if state.arm else None))
-        made = world.apply(scene.initial_state(), action, seen)
+        made = world.apply(scene.initial_state(), action, watch=seen)
     return made.state.positions[0] - start, np.array([tip for tip in tips if tip is not None])
 
 

@@ -28,7 +28,7 @@ class NeverDone(Planner[PushingOptions]):
             Path("busy").touch()
             task.apply(task.start, plan.actions[0])
         NeverDone.plans += 1
-        return Plan(Status.CLEARED, "", plan.actions[:1], (task.start,), plan.decisions[:1], plan.cost)
+        return Plan.of(Status.CLEARED, "", task.start, [(plan.actions[0], task.start)])
 """
 
 pytestmark = [

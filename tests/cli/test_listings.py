@@ -18,7 +18,7 @@ TITLES = {
 OFFERING = """
 @hookimpl
 def phframe_extensions():
-    return [Extension(Kind({kind!r}), {name!r}, {target!r}, "A lab's", {extra!r})]
+    return [Extension(Kind({kind!r}), {name!r}, {target!r}, "A lab's", {extra!r}, api_version=2)]
 """
 
 

@@ -20,6 +20,7 @@ def test_a_key_without_a_prefix_is_the_planners() -> None:
         "plan_backend": {},
         "plan_arm": {},
         "topology": {},
+        "goal": {},
         "scenes": {"count": "12"},
     }
 

@@ -13,11 +13,11 @@ PLUGIN = """
 @hookimpl
 def phframe_extensions():
     return [
-        Extension(Kind.COMMAND, "greet", "lab_commands:greet", "Greets the shelf"),
-        Extension(Kind.COMMAND, "many", "lab_commands:many", "Has commands of its own"),
-        Extension(Kind.COMMAND, "solve", "lab_commands:greet", "Has the name of one that there is"),
-        Extension(Kind.COMMAND, "useless", "lab_commands:useless", "Is no command"),
-        Extension(Kind.COMMAND, "absent", "lab_absent:it", "Is not there"),
+        Extension(Kind.COMMAND, "greet", "lab_commands:greet", "Greets the shelf", api_version=2),
+        Extension(Kind.COMMAND, "many", "lab_commands:many", "Has commands of its own", api_version=2),
+        Extension(Kind.COMMAND, "solve", "lab_commands:greet", "Has the name of one that there is", api_version=2),
+        Extension(Kind.COMMAND, "useless", "lab_commands:useless", "Is no command", api_version=2),
+        Extension(Kind.COMMAND, "absent", "lab_absent:it", "Is not there", api_version=2),
     ]
 """
 COMMANDS = """

@@ -21,6 +21,7 @@ from phframe.core import (
 from phframe.registry import Kind, catalogue, create, load
 from phframe.testing import (
     ARM_CHECKS,
+    GOAL_CHECKS,
     JOINTED,
     PHYSICS_CHECKS,
     PLANAR,
@@ -30,6 +31,7 @@ from phframe.testing import (
     ArmUnderTest,
     Check,
     EngineUnderTest,
+    GoalUnderTest,
     NotApplicableError,
     PhysicsUnderTest,
     PlannerUnderTest,
@@ -137,6 +139,12 @@ def test_arm(arm: str, check: Check[ArmUnderTest]) -> None:
 @pytest.mark.parametrize("engine", names(Kind.TOPOLOGY))
 def test_topology(engine: str, check: Check[EngineUnderTest]) -> None:
     run(check, EngineUnderTest(made(Kind.TOPOLOGY, engine)))
+
+
+@each_check(GOAL_CHECKS)
+@pytest.mark.parametrize("goal", names(Kind.GOAL))
+def test_goal(goal: str, check: Check[GoalUnderTest]) -> None:
+    run(check, GoalUnderTest(made(Kind.GOAL, goal)))
 
 
 @each_check(PLANNER_CHECKS)

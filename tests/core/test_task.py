@@ -12,10 +12,13 @@ import pytest
 from phframe.core import (
     Action,
     ArmShape,
+    Assessment,
+    Attempt,
     Budget,
     BudgetExceededError,
     Contacts,
     Cylinder,
+    Goal,
     GripperPath,
     Motion,
     Options,
@@ -29,6 +32,7 @@ from phframe.core import (
     SimulationDivergedError,
     State,
     Status,
+    Stop,
     Task,
     Transition,
 )
@@ -40,7 +44,14 @@ PATH = GripperPath(np.zeros((2, 3)), (Phase.INSERT,), {Phase.INSERT: PhaseRule(0
 ACTION = Action("in", PATH)
 
 
-def stays(state: State, _action: Action) -> Transition:
+class Patience(Goal[Options]):
+    """Nothing is to be done."""
+
+    def assess(self, scene: Scene, state: State, last: Attempt | None = None) -> Assessment:
+        return Assessment(Status.ACHIEVED)
+
+
+def stays(state: State, _action: Action, _stop: Stop | None = None) -> Transition:
     return Transition(state, Motion(1.0, followed=1.0))
 
 
@@ -48,6 +59,7 @@ def task(**more: Any) -> Task:
     parts: dict[str, Any] = {
         "scene": SCENE,
         "start": START,
+        "goal": Patience(Options()),
         "arm": ArmShape((), 0.12, 0.018, 0.08),
         "topology": SingleLinkage(Options()),
         "apply": stays,
@@ -87,7 +99,7 @@ def test_many_at_once_count_one_by_one() -> None:
 def test_workers_that_would_overrun_are_not_started() -> None:
     asked = []
 
-    def many(pairs: Sequence[tuple[State, Action]]) -> Iterable[Transition]:
+    def many(pairs: Sequence[tuple[State, Action]], _stop: Stop | None) -> Iterable[Transition]:
         asked.append(len(pairs))
         return [stays(*pair) for pair in pairs]
 
@@ -108,7 +120,7 @@ def test_time_ends_before_the_next_simulation() -> None:
 
 
 def test_costs_are_charged_by_kind() -> None:
-    def slowly(state: State, action: Action) -> Transition:
+    def slowly(state: State, action: Action, _stop: Stop | None) -> Transition:
         time.sleep(0.01)
         return stays(state, action)
 
@@ -124,7 +136,7 @@ def test_costs_are_charged_by_kind() -> None:
 
 
 def test_a_failed_simulation_is_charged_too() -> None:
-    def diverges(_state: State, _action: Action) -> Transition:
+    def diverges(_state: State, _action: Action, _stop: Stop | None) -> Transition:
         raise SimulationDivergedError("an object moves at 1e9 m/s")
 
     charged = task(apply=diverges)
@@ -145,7 +157,7 @@ def test_a_spent_budget_is_a_result(limit: int, status: Status, reason: str) -> 
 
 
 def test_a_diverged_simulation_is_a_result() -> None:
-    def diverges(_state: State, _action: Action) -> Transition:
+    def diverges(_state: State, _action: Action, _stop: Stop | None) -> Transition:
         raise SimulationDivergedError("an object moves at 1e9 m/s")
 
     plan = Busy(Options()).plan(task(apply=diverges))

@@ -21,7 +21,7 @@ from phframe.core import (
 
 INSERT = PhaseRule(0.25, 0.0, Contacts.OBJECTS)
 TURN = PhaseRule(0.5, 0.0, Contacts.NONE, turn_speed=0.5)
-GRASP = PhaseRule(0.1, 0.02, Contacts.TARGET, finger_speed=0.04)
+GRASP = PhaseRule(0.1, 0.02, Contacts.MANIPULAND, finger_speed=0.04)
 RULES = {Phase.INSERT: INSERT, Phase.REACH: TURN, Phase.GRASP: GRASP}
 POSES = [[0.0, 0.0, 0.0], [0.3, 0.4, 0.0], [0.3, 0.5, 1.0], [0.3, 0.5, 1.0]]
 

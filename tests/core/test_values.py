@@ -12,12 +12,12 @@ from pydantic import TypeAdapter
 
 from phframe.core import (
     Action,
+    ActionKind,
     ArmState,
     BasePose,
     Condition,
     Contact,
     Contacts,
-    Corridor,
     Cost,
     Cylinder,
     Decision,
@@ -31,7 +31,7 @@ from phframe.core import (
     Phase,
     PhaseRule,
     Plan,
-    Rectangle,
+    Rejection,
     Scene,
     SceneObject,
     Setup,
@@ -39,10 +39,13 @@ from phframe.core import (
     State,
     Status,
     Step,
-    Sweep,
+    StopCause,
+    StopReason,
     Transition,
+    Unreachable,
     time_path,
 )
+from phframe.pushing import Corridor, PushDecision, Rectangle, Sweep
 
 
 def scene() -> Scene:
@@ -58,14 +61,17 @@ ARM = ArmState(np.array([0.1, 0.2, 0.3]), 0.05, command=0.0, joints=np.array([0.
 
 
 def path() -> GripperPath:
-    rules = {Phase.INSERT: PhaseRule(0.25, 0.0, Contacts.OBJECTS), Phase.GRASP: PhaseRule(0.1, 0.0, Contacts.TARGET)}
-    return GripperPath(
-        np.array([[-0.1, 0.3, 0.0], [0.3, 0.3, 0.1], [0.3, 0.3, 0.1]]), (Phase.INSERT, Phase.GRASP), rules
-    )
+    rules = {
+        Phase.INSERT: PhaseRule(0.25, 0.0, Contacts.OBJECTS),
+        Phase.GRASP: PhaseRule(0.1, 0.0, Contacts.MANIPULAND),
+    }
+    poses = np.array([[-0.1, 0.3, 0.0], [0.3, 0.3, 0.1], [0.3, 0.3, 0.1]])
+    return GripperPath(poses, (Phase.INSERT, Phase.GRASP), rules, "t", {0: PhaseRule(0.1, 0.0, Contacts.NONE)})
 
 
 def decision() -> Decision:
-    return Decision(
+    return PushDecision(
+        "the closest",
         corridor=Corridor(np.array([0.0, 0.6]), -0.7, -0.12, 0.12, 0.0, 0.45, "south"),
         members=("a",),
         diagram=PersistenceDiagram(np.zeros(2), np.array([0.1, np.inf])),
@@ -76,26 +82,30 @@ def decision() -> Decision:
         rectangle=Rectangle(np.array([0.1, 0.1]), np.array([0.2, 0.3])),
         sweep=Sweep(-1, depth=0.2, lane=0.1, end=0.3, entry=0.25, exit=0.3, tilt=0.1),
         deviations=("fallback radius",),
-        parent=None,
     )
 
 
 def plan() -> Plan:
-    action = Action("push a", path(), ("a",))
-    return Plan(
-        Status.CLEARED,
-        "no way",
-        (action, action),
-        (state(), state(ARM, "t")),
-        (decision(), Decision(parent=0)),
-        Cost(1.5),
-    )
+    steps = [(grasp(), state(), decision()), (grasp(), state(ARM, "t"), Decision("because"))]
+    return replace(Plan.of(Status.CLEARED, "no way", state(), steps), cost=Cost(1.5))
+
+
+def grasp() -> Action:
+    return Action("grasp t", path(), ("t",), ActionKind.GRASP)
 
 
 def motion() -> Motion:
     contact = Contact(0.5, "a", Phase.INSERT, "link")
     return Motion(
-        1.0, (contact,), (replace(contact, body="south wall"),), 7.0, True, "contact with a", 0.001, False, 0.9
+        1.0,
+        (contact,),
+        (replace(contact, body="south wall"),),
+        7.0,
+        True,
+        StopReason(StopCause.CONTACT, "a"),
+        0.001,
+        False,
+        0.9,
     )
 
 
@@ -111,7 +121,9 @@ def episode() -> Episode:
         for trajectory, expected in zip(trajectories, (state(), None), strict=True)
     )
     setup = Setup("phia", "pymunk", "planar", "ripser", 3, {"planner": {"margin": 0.02}}, versions={"phframe": "0.1"})
-    return Episode(scene(), setup, Status.FAILED, "it fell", (plan(),), steps)
+    return Episode(
+        scene(), setup, Status.FAILED, "it fell", (plan(),), steps, (Rejection(grasp(), "no", Unreachable(0.1, "no")),)
+    )
 
 
 VALUES = [
@@ -243,12 +255,12 @@ def test_motions_one_after_the_other() -> None:
         1.0,
         (Contact(0.5, "a", Phase.INSERT, "link"), Contact(0.7, "b", Phase.SWEEP, "link")),
         largest_force=2.0,
-        stopped="contact with b",
+        stopped=StopReason(StopCause.CONTACT, "b"),
         followed=0.7,
     )
     both = first.then(later)
     assert (both.duration, both.largest_force, both.followed, both.settled) == (3.0, 3.0, 1.5, True)
     assert both.contacts == (first.contacts[0], Contact(2.7, "b", Phase.SWEEP, "link"))
-    assert both.stopped == "contact with b"
+    assert str(both.stopped) == "contact with b"
     assert not both.complete
     assert first.complete

@@ -79,7 +79,12 @@ def lifted(
     return planner.plan(path, start, attempts=10, seconds=30.0, rng=np.random.default_rng(seed))
 
 
-def path_of(arm: ArmModel[Any], legs: Sequence[tuple[Phase, Contacts, float, FloatArray]], begin: Any) -> GripperPath:
+def path_of(
+    arm: ArmModel[Any],
+    legs: Sequence[tuple[Phase, Contacts, float, FloatArray]],
+    begin: Any,
+    manipuland: str | None = None,
+) -> GripperPath:
     """From a pose along legs of phase, contacts, fraction of the opening and end."""
     shape = arm.shape
     rules = {
@@ -87,7 +92,7 @@ def path_of(arm: ArmModel[Any], legs: Sequence[tuple[Phase, Contacts, float, Flo
         for phase, contacts, fraction, _ in legs
     }
     poses = np.vstack([begin, *(end for *_, end in legs)])
-    return GripperPath(poses, tuple(phase for phase, *_ in legs), rules)
+    return GripperPath(poses, tuple(phase for phase, *_ in legs), rules, manipuland)
 
 
 def insertion(arm: ArmModel[Any], x: float, y: float, yaw: float = 0.0) -> GripperPath:
@@ -108,14 +113,14 @@ def sweep(arm: ArmModel[Any], x: float, y0: float, y1: float) -> GripperPath:
 
 
 def grasp(arm: ArmModel[Any], x: float, y: float) -> GripperPath:
-    """In with open fingers, close, and out."""
+    """In with open fingers, close on the target, and out."""
     at = np.array([x, y, 0.0])
     legs = [
-        (Phase.REACH, Contacts.TARGET, 0.9, at),
-        (Phase.GRASP, Contacts.TARGET, 0.1, at),
-        (Phase.WITHDRAW, Contacts.TARGET, 0.1, np.array([-0.12, y, 0.0])),
+        (Phase.REACH, Contacts.MANIPULAND, 0.9, at),
+        (Phase.GRASP, Contacts.MANIPULAND, 0.1, at),
+        (Phase.WITHDRAW, Contacts.MANIPULAND, 0.1, np.array([-0.12, y, 0.0])),
     ]
-    return path_of(arm, legs, np.array([BEFORE, y, 0.0]))
+    return path_of(arm, legs, np.array([BEFORE, y, 0.0]), EMPTY.target)
 
 
 def seen(motion: JointTrajectory, planner: MotionPlanner[Any], times: FloatArray) -> tuple[FloatArray, FloatArray]:

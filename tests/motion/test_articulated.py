@@ -98,12 +98,13 @@ def check_phases(motion: JointTrajectory, path: GripperPath) -> None:
 def check_openings(motion: JointTrajectory, path: GripperPath, begin: float) -> None:
     gripper = motion.gripper
     assert gripper.openings[0] == pytest.approx(begin, abs=1e-9)
-    for phase in path.phases:
+    for number, phase in enumerate(path.phases):
+        rule = path.rule(number)
         last = max(leg for leg, found in enumerate(gripper.phases) if found is phase) + 1
-        assert gripper.openings[last] == pytest.approx(path.rules[phase].opening, abs=1e-6), phase
+        assert gripper.openings[last] == pytest.approx(rule.opening, abs=1e-6), phase
         first = gripper.phases.index(phase)
         steps = np.diff(gripper.openings[first : last + 1]) / np.diff(gripper.times[first : last + 1])
-        assert np.abs(steps).max(initial=0.0) <= path.rules[phase].finger_speed * 1.02
+        assert np.abs(steps).max(initial=0.0) <= rule.finger_speed * 1.02
 
 
 def check_tip(motion: JointTrajectory, planner: MotionPlanner[Any], path: GripperPath, times: FloatArray) -> None:
@@ -125,11 +126,11 @@ def check_tip(motion: JointTrajectory, planner: MotionPlanner[Any], path: Grippe
     later = np.array([False, *(phase is not Phase.APPROACH for phase in gripper.phases)])
     turned = np.abs(np.remainder(at_samples[later, 3] - gripper.poses[later, 2] + math.pi, math.tau) - math.pi)
     assert turned.max() < 2e-3
-    for phase in path.phases:
+    for number, phase in enumerate(path.phases):
         rows = [leg for leg, found in enumerate(gripper.phases) if found is phase]
         steps = np.hypot(*np.diff(at_samples[[*rows, rows[-1] + 1], :2], axis=0).T)
         spans = np.diff(gripper.times[[*rows, rows[-1] + 1]])
-        assert (steps / spans).max() <= path.rules[phase].speed * 1.02
+        assert (steps / spans).max() <= path.rule(number).speed * 1.02
 
 
 @pytest.mark.parametrize("kind", ["straight", "sweep", "angled", "grasp"])
@@ -165,10 +166,9 @@ def check_nothing_is_hit(motion: JointTrajectory, planner: MotionPlanner[Any], p
     scene = planner.scene
     for time in np.append(np.arange(0.0, motion.duration, JUDGED), motion.duration):
         phase = motion.gripper.phase_at(float(time))
-        rule = path.rules.get(phase)
-        may = {Contacts.OBJECTS: set(scene.ids), Contacts.TARGET: {scene.target}}.get(
-            rule.contacts if rule else Contacts.NONE, set()
-        )
+        rule = path.rule(path.phases.index(phase)) if phase in path.phases else None
+        allowed = {Contacts.OBJECTS: set(scene.ids), Contacts.MANIPULAND: {path.manipuland or ""}}
+        may = allowed.get(rule.contacts if rule else Contacts.NONE, set())
         found = judge.touching(motion.sample([time])[0][0], motion.gripper.at(float(time))[1])
         assert {pair for pair in found if not may & set(pair)} == set(), (time, phase)
 
@@ -297,8 +297,8 @@ def test_without_toppra_there_is_one_too(monkeypatch: pytest.MonkeyPatch) -> Non
     for name in [name for name in sys.modules if name.partition(".")[0] == "toppra"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "toppra", None)
-    for name in ("articulated_motion", "schedule", "toppra_"):
-        monkeypatch.delitem(sys.modules, f"phframe.arms.{name}", raising=False)
+    for name in ("articulated", "time_parametrisation", "toppra_"):
+        monkeypatch.delitem(sys.modules, f"phframe.motion.{name}", raising=False)
     with pytest.raises(NotInstalledError, match=r"Baxter needs toppra.*phframe\[baxter\]") as caught:
         planner(baxter())
     assert "\n" not in str(caught.value)

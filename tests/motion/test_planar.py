@@ -36,10 +36,10 @@ SCENE = Scene("s", Shelf(0.6, 0.6), (SceneObject("target", Cylinder(0.03), (0.5,
 RULES = {
     Phase.INSERT: PhaseRule(0.25, 0.0, Contacts.OBJECTS),
     Phase.SWEEP: PhaseRule(0.2, 0.0, Contacts.OBJECTS),
-    Phase.GRASP: PhaseRule(0.2, 0.08, Contacts.TARGET),
+    Phase.GRASP: PhaseRule(0.2, 0.08, Contacts.MANIPULAND),
 }
 POSES = np.array([[-0.05, 0.2, 0.1], [0.3, 0.25, 0.1], [0.3, 0.4, -0.2], [0.3, 0.4, -0.2]])
-PATH = GripperPath(POSES, (Phase.INSERT, Phase.SWEEP, Phase.GRASP), RULES)
+PATH = GripperPath(POSES, (Phase.INSERT, Phase.SWEEP, Phase.GRASP), RULES, "target")
 
 
 def lifted(path: GripperPath, state: State, base_pose: BasePose) -> JointTrajectory | Unreachable:

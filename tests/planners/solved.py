@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from functools import cache
 
 from phframe.bench.meters.outcomes import Outcome, run_suite
-from phframe.core import Corridor, Decision, Episode, Plan, Scene, State
+from phframe.core import ROOT, ActionKind, Episode, Plan, Scene, State
+from phframe.pushing import Corridor, PushDecision
 from phframe.runtime.scenes import scene_names
 
 PLANNERS = ("phia", "ooa")
@@ -23,13 +24,15 @@ def episodes(planner: str) -> list[Episode]:
     return [outcome.episode for outcome in outcomes(planner)]
 
 
-def pushes(planner: str) -> Iterator[tuple[Scene, State, Decision, Corridor]]:
+def pushes(planner: str) -> Iterator[tuple[Scene, State, PushDecision, Corridor]]:
     """Every push of every plan: the scene, the state before it, why it was chosen, and its corridor."""
     for episode in episodes(planner):
         for plan in episode.plans:
-            states = [episode.scene.initial_state(), *plan.expected]
+            assert plan.tree is not None
+            states = [plan.tree.nodes[ROOT].state, *plan.expected]
             for before, decision, action in zip(states, plan.decisions, plan.actions, strict=False):
-                if not action.grasps:
+                if action.kind is ActionKind.PUSH:
+                    assert isinstance(decision, PushDecision)
                     assert decision.corridor is not None
                     yield episode.scene, before, decision, decision.corridor
 

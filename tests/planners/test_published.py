@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from phframe.bench.meters.outcomes import tally, was_cleared
-from phframe.core import Condition, Status
+from phframe.core import ActionKind, Condition, Status
 from phframe.pushing.corridor import find_corridor
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.persistence import persistent_radii
@@ -54,7 +54,7 @@ def test_retrieved_is_in_the_hand_and_all_of_it_10_cm_before_the_mouth(planner: 
 def test_when_it_grasps_the_corridor_is_empty(planner: str) -> None:
     for episode in episodes(planner):
         scene, grasp = episode.scene, episode.steps[-1] if episode.steps else None
-        if grasp is None or not grasp.action.grasps:
+        if grasp is None or grasp.action.kind is not ActionKind.GRASP:
             continue
         target = grasp.before.positions[scene.target_index]
         corridor = find_corridor(target, scene.shelf, 0.12)

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.core import Corridor, Cylinder, FloatArray, Outline, Scene, SceneObject, Shelf
+from phframe.core import Action, Cylinder, FloatArray, Outline, Rejection, Scene, SceneObject, Shelf
+from phframe.pushing import Corridor, Retrieve, RetrieveOptions
 
 often = settings(max_examples=25, deadline=None)
 """Enough examples to find what is wrong within some runs; machines that are busy are no failure."""
@@ -19,6 +20,12 @@ ARM = PlanarArm(PlanarArmOptions()).shape
 SHELF = Shelf(depth=0.6, width=0.6)
 RADIUS = 0.03
 HALF_WIDTH = 0.12
+RETRIEVE = Retrieve(RetrieveOptions())
+
+
+def rejections(actions: Sequence[Action]) -> tuple[Rejection, ...]:
+    """Actions that came to nothing, for a reason of no importance."""
+    return tuple(Rejection(action, "it came to nothing") for action in actions)
 
 
 def scene_of(target: tuple[float, float], *obstacles: tuple[float, float], shelf: Shelf = SHELF) -> Scene:

@@ -8,12 +8,11 @@ import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from phframe.core import Corridor, FloatArray, Outline, Shelf
+from phframe.core import FloatArray, Outline, Shelf
 from phframe.geometry.arm_view import ArmView
-from phframe.pushing.corridor import find_corridor
+from phframe.pushing import Corridor, PushingOptions, find_corridor
 from phframe.pushing.grouping import bounding_rectangle
-from phframe.pushing.push_problem import WALL_CLEARANCE
-from phframe.pushing.sweep import SweepGeometry
+from phframe.pushing.sweep_generator import SweepGenerator
 from phframe.pushing.tilted_sweep import Component, Direction, Push, TiltedSweep
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS
 
@@ -42,17 +41,19 @@ class Case:
 
     @property
     def view(self) -> ArmView:
-        return ArmView(self.shelf, ARM.closed, WALL_CLEARANCE)
+        return ArmView(self.shelf, ARM.closed, PushingOptions().wall_clearance)
 
     @property
-    def geometry(self) -> SweepGeometry:
-        return SweepGeometry(self.corridor, self.local, RADIUS, RADIUS, self.view)
+    def geometry(self) -> SweepGenerator:
+        return SweepGenerator(self.corridor, self.local, RADIUS, RADIUS, self.view, PushingOptions())
 
     def fitted(self, direction: Direction, tilt: float, outlines: tuple[Outline, ...] = ARM.closed) -> Push | None:
         """The sweep in one direction at one tilt, if it fits."""
-        view = ArmView(self.shelf, outlines, WALL_CLEARANCE)
+        view = ArmView(self.shelf, outlines, PushingOptions().wall_clearance)
         component = Component(self.local, bounding_rectangle(self.local), RADIUS)
-        return TiltedSweep(self.corridor, component, view, RADIUS, direction=direction, tilt=tilt).push(())
+        options = PushingOptions()
+        sweep = TiltedSweep(self.corridor, component, view, RADIUS, direction=direction, tilt=tilt, options=options)
+        return sweep.push(())
 
     @property
     def pushes(self) -> list[Push]:

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from phframe.core import Corridor, Cylinder, FloatArray, Infeasible, Shelf
-from phframe.pushing.corridor import corridor_half_width, find_corridor
+from phframe.core import Cylinder, FloatArray, Infeasible, Shelf
+from phframe.pushing.corridor import Corridor, corridor_half_width, find_corridor
 from tests.pushing.parts import ARM, RADIUS, SHELF, in_strip, often, places, scene_of, shelves
 
 widths = st.floats(0.05, 0.15)

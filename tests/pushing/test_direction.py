@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from phframe.core import Corridor, Shelf
+from phframe.core import Shelf
 from phframe.geometry.arm_view import ArmView
-from phframe.pushing.deviation import Deviation
-from phframe.pushing.sweep import SweepGeometry
+from phframe.pushing import Corridor, Deviation, PushingOptions
+from phframe.pushing.sweep_generator import SweepGenerator
 from phframe.pushing.tilted_sweep import Push
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, often
 from tests.pushing.sweep_cases import Case, cases
@@ -96,5 +96,5 @@ def test_where_the_arm_does_not_fit_nothing_is_proposed() -> None:
     for width, fits in ((0.12, False), (0.25, True)):
         corridor = Corridor(np.zeros(2), 0.0, width / 2, 0.05, 0.0, 0.4)
         view = ArmView(Shelf(0.6, width), ARM.closed, 0.002)
-        pushes = SweepGeometry(corridor, np.array([[0.2, width / 2]]), RADIUS, RADIUS, view).pushes()
+        pushes = SweepGenerator(corridor, np.array([[0.2, width / 2]]), RADIUS, RADIUS, view, PushingOptions()).pushes()
         assert bool(list(pushes)) is fits

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from phframe.pushing.grouping import bounding_rectangle, closest_component
+from phframe.pushing.grouping import bounding_rectangle, closest_component, merged_labels
 from tests.pushing.parts import often
 
 coordinate = st.integers(0, 6).map(lambda step: step / 8.0)  # exact in binary, so that ties are ties
@@ -41,3 +41,16 @@ def test_the_rectangle_is_the_smallest_that_holds_all(points: list[tuple[float, 
     for axis in (0, 1):
         values = [point[axis] for point in points]
         assert (rectangle.lower[axis], rectangle.upper[axis]) == (min(values), max(values))
+
+
+@given(st.lists(st.integers(0, 4), min_size=1, max_size=10))
+def test_with_one_point_each_the_labels_are_those_of_the_points(drawn: list[int]) -> None:
+    order = {label: number for number, label in enumerate(dict.fromkeys(drawn))}
+    labels = np.array([order[label] for label in drawn])
+    assert merged_labels(labels, np.arange(len(labels))).tolist() == labels.tolist()
+
+
+def test_an_object_with_points_in_two_components_makes_them_one() -> None:
+    labels, owners = np.array([0, 1, 1, 2, 3, 0]), np.array([0, 1, 2, 2, 3, 4])
+    assert merged_labels(labels, owners).tolist() == [0, 1, 1, 2, 0]
+    assert merged_labels(np.array([0, 1, 2, 1]), np.array([0, 0, 1, 1])).tolist() == [0, 0]

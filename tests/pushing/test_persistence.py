@@ -11,9 +11,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phframe.core import FloatArray, PersistenceDiagram, Scene
-from phframe.pushing.options import PushingOptions
-from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
-from phframe.pushing.push_problem import Pushing, PushProblem
+from phframe.pushing import (
+    Pushing,
+    PushingOptions,
+    PushProblem,
+    persistent_radii,
+    usable_radii,
+    usable_threshold,
+)
 from phframe.runtime.scenes import find_scene, scene_names
 from phframe.testing import simulated_tasks
 from tests.pushing.parts import often

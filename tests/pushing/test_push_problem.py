@@ -10,8 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phframe.core import Condition, Cylinder, Infeasible, Scene
-from phframe.pushing.options import PushingOptions
-from phframe.pushing.push_problem import Pushing, PushProblem
+from phframe.pushing import Pushing, PushingOptions, PushProblem
 from phframe.testing import simulated_tasks
 from tests.pushing.parts import in_strip, mirrored, often, scene_of
 
@@ -33,14 +32,14 @@ def test_obstacles_in_the_corridor_count_and_the_target_does_not() -> None:
 
 
 def test_what_blocks_the_grasp_counts_too() -> None:
-    assert names(pushing().problem(SCENE.initial_state(), also=("o3", "target"))) == ["o0", "o1", "o3"]
+    assert names(pushing().problem(SCENE.initial_state(), ("o3", "target"))) == ["o0", "o1", "o3"]
 
 
 def test_what_has_spilled_does_not_count_and_what_has_toppled_does() -> None:
     state = SCENE.initial_state()
     upright, spilled, toppled = Condition.UPRIGHT, Condition.SPILLED, Condition.TOPPLED
     changed = replace(state, conditions=(upright, spilled, toppled, upright, upright))
-    assert names(pushing().problem(changed, also=("o0",))) == ["o1"]
+    assert names(pushing().problem(changed, ("o0",))) == ["o1"]
 
 
 @pytest.mark.parametrize("condition", [Condition.SPILLED, Condition.TOPPLED])

@@ -69,6 +69,7 @@ def entry_points_in(folder: Path) -> list[EntryPoint]:
 
 def offering(*names: str, kind: str = "planner", **more: object) -> str:
     """Source of a plugin that offers planners, all of the class ``Straight`` that it defines."""
+    more = {"api_version": 2, **more}
     extra = "".join(f", {key}={value!r}" for key, value in more.items())
     lines = [f"Extension(Kind({kind!r}), {name!r}, 'MODULE:Straight', 'A test'{extra})," for name in names]
     return f"{STRAIGHT}\n@hookimpl\ndef phframe_extensions():\n    return [{' '.join(lines)}]\n"

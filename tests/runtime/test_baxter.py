@@ -111,8 +111,8 @@ def test_a_missing_library_is_one_line_with_its_extra(
     for name in [name for name in sys.modules if name.partition(".")[0] == library]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, library, None)
-    for name in ("articulated_motion", "schedule", "toppra_"):
-        monkeypatch.delitem(sys.modules, f"phframe.arms.{name}", raising=False)
+    for name in ("articulated", "time_parametrisation", "toppra_"):
+        monkeypatch.delitem(sys.modules, f"phframe.motion.{name}", raising=False)
     result = invoke(*SOLVE)
     assert result.exit_code != 0
     assert result.stderr.startswith("error: ")

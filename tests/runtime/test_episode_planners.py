@@ -9,6 +9,7 @@ import pytest
 
 from phframe.core import (
     Action,
+    ActionKind,
     Motion,
     Options,
     Plan,
@@ -30,13 +31,14 @@ SPEC = WorldSpec(BASIC)
 
 
 class OnlyClears(PHIA):
-    """Leaves the grasp to whoever carries the plan out, as the paper does."""
+    """Promises an empty corridor, and no grasp."""
 
     def search(self, task: Task) -> Plan:
         plan = super().search(task)
-        pushes = [number for number, action in enumerate(plan.actions) if not action.grasps]
-        kept = [tuple(part[number] for number in pushes) for part in (plan.actions, plan.expected, plan.decisions)]
-        return Plan(Status.CLEARED, "the corridor is empty", *kept)  # type: ignore[arg-type]
+        assert plan.tree is not None
+        path = [node for node in plan.tree.path if node.action and node.action.kind is ActionKind.PUSH]
+        steps = [(node.action, node.state) for node in path if node.action is not None]
+        return Plan.of(Status.CLEARED, "the corridor is empty", task.start, steps)
 
 
 class DoesNothing(Planner[Options]):
@@ -46,34 +48,18 @@ class DoesNothing(Planner[Options]):
         return Plan(Status.CLEARED, "it looks empty")
 
 
-def test_a_plan_that_only_clears_is_followed_by_a_grasp() -> None:
+def test_a_plan_that_only_clears_is_carried_out_and_no_more() -> None:
     episode = run(ExecutionWorld(SPEC), OnlyClears(PushingOptions()))
-    assert (episode.status, episode.reason) == (Status.RETRIEVED, "")
-    last = episode.steps[-1]
-    assert last.action.grasps
-    assert last.expected is None
-    assert not any(action.grasps for action in episode.plans[0].actions)
+    assert (episode.status, episode.replans) == (Status.CLEARED, 0)
+    assert episode.reason == "the corridor is empty, and the target was not grasped"
+    assert [step.action for step in episode.steps] == list(episode.plans[0].actions)
 
 
-def test_a_planner_without_corridors_is_followed_by_a_grasp_along_the_usual_one() -> None:
-    free = scene_of((0.4, 0.3))
-    episode = run(ExecutionWorld(WorldSpec(free)), DoesNothing(Options()))
-    assert (episode.status, len(episode.steps)) == (Status.RETRIEVED, 1)
-
-
-def test_where_that_grasp_is_blocked_the_corridor_is_cleared_and_no_more() -> None:
-    blocked = scene_of((0.4, 0.3), (0.4, 0.3605), (0.4, 0.2395))
-    episode = run(ExecutionWorld(WorldSpec(blocked)), DoesNothing(Options()))
-    assert episode.status is Status.CLEARED
-    assert episode.reason.startswith("grasp blocked by o")
-    assert episode.steps == ()
-
-
-def test_a_grasp_found_here_and_refused_by_the_arm_is_not_asked_for_again() -> None:
-    world = Clumsy(SPEC, lambda action: action.grasps)
-    episode = run(world, OnlyClears(PushingOptions()))
-    assert episode.status in (Status.CLEARED, Status.FAILED)
-    assert len(world.refused) == len(set(world.refused))
+def test_a_plan_without_actions_ends_as_the_goal_judges_it_whatever_it_claims() -> None:
+    free, blocked = scene_of((0.4, 0.3)), scene_of((0.4, 0.3), (0.2, 0.3))
+    for scene, status in ((free, Status.CLEARED), (blocked, Status.FAILED)):
+        episode = run(ExecutionWorld(WorldSpec(scene)), DoesNothing(Options()))
+        assert (episode.status, episode.steps, len(episode.plans)) == (status, (), 1)
 
 
 def test_another_arm_than_the_one_planned_with_starts_parked(tmp_path: Path) -> None:
@@ -119,15 +105,16 @@ def test_a_grasp_that_misses_is_reached_or_tried_again() -> None:
     class Misses(Noting):
         def search(self, task: Task) -> Plan:
             plan = super().search(task)
-            *pushes, grasp = plan.actions
-            poses = grasp.path.poses - [0.15, 0.0, 0.0]
-            short = replace(grasp, path=replace(grasp.path, poses=poses))
-            return replace(plan, actions=(*pushes, short))
+            assert plan.tree is not None
+            *nodes, last = plan.tree.nodes
+            assert last.action is not None
+            short = replace(last.action, path=last.action.path.shifted([-0.15, 0.0, 0.0]))
+            return replace(plan, tree=replace(plan.tree, nodes=(*nodes, replace(last, action=short))))
 
     planner = Misses()
     episode = run(ExecutionWorld(WorldSpec(scene_of((0.4, 0.3)))), planner)
     assert [len(task.rejected) for task in planner.tasks] == list(range(len(episode.plans)))
-    assert [step.action for step in episode.steps[:-1]] == list(planner.tasks[-1].rejected)
+    assert [step.action for step in episode.steps[:-1]] == [each.action for each in planner.tasks[-1].rejected]
     assert (episode.status, episode.reason) == (Status.REACHED, "the target was not held")
     assert all(step.after.held is None for step in episode.steps)
 

@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from phframe.core import Episode, InputError, Plan
+from phframe.pushing import PushDecision
 from phframe.runtime.files import load, save, write_whole
 from phframe.runtime.solve import solve
 from phframe.runtime.summary import summarize
@@ -56,7 +57,7 @@ def test_what_was_loaded_is_as_immutable_as_what_was_saved(tmp_path: Path) -> No
     assert isinstance(back, Episode)
     for array in (back.final_state.poses, back.steps[0].action.path.poses, back.steps[0].trajectory.times):
         assert not array.flags.writeable
-    labels = back.plans[0].decisions[0].labels
+    labels = PushDecision.of(back.plans[0].decisions[0]).labels
     assert labels is not None
     assert not labels.flags.writeable
     hash(back.steps[0].action)
@@ -65,19 +66,20 @@ def test_what_was_loaded_is_as_immutable_as_what_was_saved(tmp_path: Path) -> No
 BAD = {
     "empty": "",
     "no JSON": "phframe: 1",
-    "truncated": '{"phframe": 1, "kind": "plan", "plan": {"status": "clea',
+    "truncated": '{"phframe": 2, "kind": "plan", "plan": {"status": "clea',
     "a list": "[1, 2]",
     "null": "null",
-    "no kind": '{"phframe": 1}',
-    "another kind": '{"phframe": 1, "kind": "scene", "scene": {}}',
-    "a kind that is a list": '{"phframe": 1, "kind": [], "plan": {}}',
-    "no plan": '{"phframe": 1, "kind": "plan"}',
-    "a newer format": '{"phframe": 2, "kind": "plan", "plan": {"status": "cleared"}}',
+    "no kind": '{"phframe": 2}',
+    "another kind": '{"phframe": 2, "kind": "scene", "scene": {}}',
+    "a kind that is a list": '{"phframe": 2, "kind": [], "plan": {}}',
+    "no plan": '{"phframe": 2, "kind": "plan"}',
+    "an older format": '{"phframe": 1, "kind": "plan", "plan": {"status": "cleared"}}',
+    "a newer format": '{"phframe": 3, "kind": "plan", "plan": {"status": "cleared"}}',
     "a format of text": '{"phframe": "1", "kind": "plan", "plan": {"status": "cleared"}}',
     "no format": '{"kind": "plan", "plan": {"status": "cleared"}}',
-    "an unknown status": '{"phframe": 1, "kind": "plan", "plan": {"status": "done"}}',
+    "an unknown status": '{"phframe": 2, "kind": "plan", "plan": {"status": "done"}}',
     "deeply nested": "[" * 100_000,
-    "a huge number": '{"phframe": 1, "kind": "plan", "plan": {"status": "failed", "cost": {"total": 1%s}}}'
+    "a huge number": '{"phframe": 2, "kind": "plan", "plan": {"status": "failed", "cost": {"total": 1%s}}}'
     % ("0" * 400),
 }
 
@@ -94,7 +96,7 @@ def test_what_is_no_such_file_is_refused_by_name(what: str, tmp_path: Path) -> N
 
 def test_a_newer_format_is_named_with_the_one_that_is_read(tmp_path: Path) -> None:
     (tmp_path / "new.json").write_text(BAD["a newer format"])
-    with pytest.raises(InputError, match="format 2; this phframe reads format 1"):
+    with pytest.raises(InputError, match="format 3; this phframe reads format 2"):
         load(tmp_path / "new.json")
 
 

@@ -11,7 +11,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from phframe.core import Action, Budget, Condition, InputError, Plan, State, Unreachable, Watch
+from phframe.core import (
+    Action,
+    Budget,
+    Condition,
+    InputError,
+    Plan,
+    Rejection,
+    State,
+    StopCause,
+    StopReason,
+    Unreachable,
+    Watch,
+)
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
@@ -19,11 +31,11 @@ from phframe.runtime.world import WorldSpec
 from tests.runtime.worlds import BASIC
 
 SPEC = WorldSpec(BASIC)
-ENGINE = create(Kind.TOPOLOGY, "ripser")
+ENGINE, GOAL = create(Kind.TOPOLOGY, "ripser"), create(Kind.GOAL, "retrieve")
 
 
 def plan_in(world: PlanningWorld) -> Plan:
-    task = world.task(world.scene.initial_state(), ENGINE, np.random.default_rng(0))
+    task = world.task(world.scene.initial_state(), ENGINE, np.random.default_rng(0), goal=GOAL)
     plan: Plan = create(Kind.PLANNER, "ooa").plan(task)
     return plan
 
@@ -65,7 +77,7 @@ def test_actions_move_something_and_states_go_on_from_one_another() -> None:
 @pytest.mark.parametrize("period", [1 / 30, 0.011])
 def test_frames_end_in_the_state_that_the_action_ends_in(number: int, period: float) -> None:
     frames: list[tuple[float, State]] = []
-    WORLD.apply(*PAIRS[number], Watch(period, lambda time, state: frames.append((time, state))))
+    WORLD.apply(*PAIRS[number], watch=Watch(period, lambda time, state: frames.append((time, state))))
     times = [time for time, _ in frames]
     assert times == sorted(times)
     assert times[0] == 0.0
@@ -88,7 +100,9 @@ def test_many_at_once_with_two_workers_come_to_the_same_bits_in_the_same_order()
     with PlanningWorld(SPEC, workers=2) as world:
         assert world.apply_many(pairs) == [AFTER[number] for number in (3, 0, 2, 0, 1, 3)]
         assert len(set(active_children()) - before) == 2
-        task = world.task(BASIC.initial_state(), ENGINE, np.random.default_rng(0), budget=Budget(simulations=6))
+        task = world.task(
+            BASIC.initial_state(), ENGINE, np.random.default_rng(0), goal=GOAL, budget=Budget(simulations=6)
+        )
         assert task.apply_many(pairs[:2]) == [AFTER[3], AFTER[0]]
         assert task.cost.simulated_actions == 2
     assert set(active_children()) <= before, "the workers end with the world"
@@ -102,7 +116,8 @@ def test_an_action_that_the_arm_cannot_do_changes_nothing() -> None:
     with Short(SPEC) as world:
         transition = world.apply(*PAIRS[0])
     assert transition.state == PAIRS[0][0]
-    assert (transition.motion.complete, transition.motion.stopped) == (False, "unreachable: out of reach")
+    assert (transition.motion.complete, str(transition.motion.stopped)) == (False, "unreachable: out of reach")
+    assert transition.motion.stopped == StopReason(StopCause.UNREACHABLE, unreachable=Unreachable(0.2, "out of reach"))
 
 
 def test_states_of_another_scene_are_refused() -> None:
@@ -122,11 +137,12 @@ def test_what_has_spilled_stays_spilled_and_is_in_nobodys_way() -> None:
 
 
 def test_the_task_is_the_worlds() -> None:
-    task = WORLD.task(
-        PAIRS[1][0], ENGINE, np.random.default_rng(3), budget=Budget(simulations=1), rejected=PLAN.actions
-    )
+    rejected, rng = tuple(Rejection(action, "no") for action in PLAN.actions), np.random.default_rng(3)
+    task = WORLD.task(PAIRS[1][0], ENGINE, rng, goal=GOAL, budget=Budget(simulations=1), rejected=rejected)
     assert (task.scene, task.start, task.arm) == (BASIC, PAIRS[1][0], WORLD.arm.shape)
-    assert (task.budget, task.rejected) == (Budget(simulations=1), PLAN.actions)
+    assert (task.budget, task.rejected) == (Budget(simulations=1), rejected)
+    assert task.rejects(PLAN.actions[1]) == rejected[1]
+    assert task.goal is GOAL
     assert task.apply(*PAIRS[1]) == AFTER[1]
     assert task.rng.random() == np.random.default_rng(3).random()
 

@@ -27,12 +27,9 @@ def sensor(scene: Scene, position: float, seed: int = 0) -> Sensor:
 
 def as_seen(scene: Scene, seen: State) -> list[str]:
     """What would be wrong with the scene, were it as it is seen."""
-    moved = (
-        replace(item, position=(float(x), float(y))) for item, (x, y) in zip(scene.objects, seen.positions, strict=True)
-    )
-    at_rest = Scene(scene.name, scene.shelf, scene.objects, scene.target)
-    object.__setattr__(at_rest, "objects", tuple(moved))
-    return problems_of(at_rest)
+    pairs = zip(scene.objects, seen.positions, strict=True)
+    moved = [replace(item, position=(float(x), float(y))) for item, (x, y) in pairs]
+    return problems_of(scene.shelf, moved, scene.target, {})
 
 
 @given(st.sampled_from(PUBLISHED), st.sampled_from([0.001, 0.005, 0.02, 0.05]), st.integers(0, 1000))

@@ -61,7 +61,10 @@ def test_after_a_stall_the_arm_is_outside_and_the_objects_are_in_place(action: A
         assert after.on_board.all()
         assert (after.positions[:, 1] <= 0.6 - 0.03 + 2e-3).all(), "nothing is squeezed into the wall"
         frames: list[tuple[float, State]] = []
-        assert world.apply(start, action, Watch(1 / 30, lambda time, state: frames.append((time, state)))) == transition
+        assert (
+            world.apply(start, action, watch=Watch(1 / 30, lambda time, state: frames.append((time, state))))
+            == transition
+        )
         times = [time for time, _ in frames]
         assert times == sorted(times)
         assert times[-1] == pytest.approx(motion.duration)

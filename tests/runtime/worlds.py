@@ -130,7 +130,8 @@ def run(
     setup = Setup("phia", "pymunk", "planar", "ripser", seed, loop=loop)
     with execution, PlanningWorld(planning or WorldSpec(execution.scene)) as plans_in:
         topology = create(Kind.TOPOLOGY, "ripser")
-        return run_episode(planner or Noting(), topology, plans_in, execution, setup, loop, observers)
+        goal = create(Kind.GOAL, "retrieve")
+        return run_episode(planner or Noting(), topology, plans_in, execution, goal, setup, loop, observers)
 
 
 def arm_file(folder: Path) -> str:

@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from phframe.core import Corridor, Scene, SceneError, UnknownNameError
+from phframe.core import Scene, SceneError, UnknownNameError
+from phframe.pushing import Corridor
 from phframe.scenes import RandomOptions, RandomScenes, scene_to_yaml
 from phframe.scenes.draws import Draws
 

@@ -6,7 +6,7 @@ from weakref import finalize
 
 import numpy as np
 
-from phframe.core import Budget, Rejection, Scene, State, Task
+from phframe.core import Action, Budget, Rejection, Scene, State, Task
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.world import WorldSpec
@@ -29,11 +29,12 @@ def simulated_tasks(backend: str = "pymunk", arm: str = "planar", topology: str 
         seed: int = 0,
         start: State | None = None,
         budget: Budget = Budget(seconds=60.0),  # noqa: B008 - immutable
-        rejected: tuple[Rejection, ...] = (),
+        rejected: tuple[Action, ...] = (),
     ) -> Task:
         world, rng = PlanningWorld(WorldSpec(scene, backend, arm)), np.random.default_rng(seed)
+        refused = tuple(Rejection(action, "the arm cannot do it") for action in rejected)
         begin = start or scene.initial_state()
-        task = world.task(begin, engine, rng, goal=goal, budget=budget, rejected=rejected)
+        task = world.task(begin, engine, rng, goal=goal, budget=budget, rejected=refused)
         finalize(task, world.close)
         return task
 

@@ -12,5 +12,6 @@ def phframe_extensions() -> list[Extension]:
             "random-push",
             "phframe_random_push.random_push:RandomPush",
             "Sweeps a random obstacle in a random direction: the floor that every other planner must beat",
+            api_version=2,
         )
     ]

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from phframe import solve
-from phframe.core import Action, Decision, Plan, Scene, Status, Sweep
+from phframe.core import Action, ActionKind, Plan, Scene, Status
+from phframe.pushing import PushDecision, Sweep
 from phframe.registry import Kind, create, discover, load
 from phframe.testing import PLANNER_CHECKS, Check, PlannerUnderTest, simulated_tasks
 from phframe_random_push import phframe_extensions
@@ -29,8 +30,9 @@ def plan_for(scene: Scene, seed: int, rejected: tuple[Action, ...] = (), **optio
     return RandomPush(RandomPush.options_type(**options)).plan(task)
 
 
-def pushes(plan: Plan) -> list[tuple[Action, Decision]]:
-    return [(a, d) for a, d in zip(plan.actions, plan.decisions, strict=True) if not a.grasps]
+def pushes(plan: Plan) -> list[tuple[Action, PushDecision]]:
+    made = zip(plan.actions, plan.decisions, strict=True)
+    return [(action, PushDecision.of(why)) for action, why in made if action.kind is ActionKind.PUSH]
 
 
 @pytest.mark.parametrize("check", PLANNER_CHECKS, ids=lambda check: check.name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 from statistics import median
 
@@ -62,15 +63,14 @@ def test_a_failed_plan_that_leaves_obstacles_has_not_cleared() -> None:
 
 def test_a_failed_plan_that_leaves_an_empty_corridor_has_cleared() -> None:
     plan = OUTCOMES[2].episode.plans[0]
-    pushes = slice(0, len(plan.actions) - 1)
-    emptied = Plan(Status.FAILED, "grasp blocked", plan.actions[pushes], plan.expected[pushes], plan.decisions[pushes])
+    emptied = _without_grasp(OUTCOMES[2].episode, plan, plan.expected[:-1])
     failed = replace(OUTCOMES[2].episode, status=Status.FAILED, reason="grasp blocked", plans=(emptied,), steps=())
     assert was_cleared(failed)
-    lost = replace(emptied, expected=(*emptied.expected[:-1], _spilled(failed, emptied)))
+    lost = _without_grasp(failed, plan, (*emptied.expected[:-1], _spilled(failed, emptied)))
     assert not was_cleared(replace(failed, plans=(lost,)))
 
 
-def test_settlements_are_those_of_all_plans() -> None:
+def test_deviations_are_those_of_all_plans() -> None:
     counted = Counter(c for o in OUTCOMES for plan in o.episode.plans for d in plan.decisions for c in d.deviations)
     assert counted
     assert deviations(OUTCOMES) == counted
@@ -85,6 +85,12 @@ def _with_last(episode: Episode, condition: Condition) -> Episode:
     conditions[row] = condition
     after = replace(last.after, conditions=tuple(conditions))
     return replace(episode, steps=(*episode.steps[:-1], replace(last, after=after)))
+
+
+def _without_grasp(episode: Episode, plan: Plan, expected: Sequence[State]) -> Plan:
+    """The pushes of a plan, of which something is expected."""
+    steps = zip(plan.actions[:-1], expected, plan.decisions[:-1], strict=True)
+    return Plan.of(Status.FAILED, "grasp blocked", episode.scene.initial_state(), steps)
 
 
 def _spilled(episode: Episode, plan: Plan) -> State:

@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from phframe.core import Corridor, Rectangle, Sweep
+from phframe.pushing import Corridor, Rectangle, Sweep
 
 number = st.floats(-1.0, 1.0)
 

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from phframe.core import (
     Action,
+    ActionKind,
     Condition,
     Contacts,
-    Corridor,
     Cylinder,
     FloatArray,
     Infeasible,
@@ -23,10 +23,10 @@ from phframe.core import (
     Scene,
     State,
 )
-from phframe.pushing.corridor import find_corridor
+from phframe.pushing.corridor import Corridor, find_corridor
 from phframe.pushing.deviation import Deviation
+from phframe.pushing.grasp import FITS, YAW_STEPS, Grasp, grasp_action
 from phframe.pushing.options import PushingOptions
-from phframe.pushing.reach import FITS, NEIGHBOUR_CLEARANCE, YAW_STEPS, Grasp, grasp_action
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, gap_to_walls, gaps_to_points, often, scene_of
 from tests.pushing.sweep_cases import millimetres
 
@@ -53,8 +53,21 @@ def corridor_of(scene: Scene) -> Corridor:
     return corridor
 
 
-def planned(scene: Scene, rejected: tuple[Action, ...] = ()) -> Grasp | Infeasible:
-    return grasp_action(scene, scene.initial_state(), corridor_of(scene), ARM, PushingOptions(), rejected)
+def planned(
+    scene: Scene,
+    rejected: tuple[Action, ...] = (),
+    options: PushingOptions = PushingOptions(),  # noqa: B008 - immutable
+) -> Grasp | Infeasible:
+    corridor = corridor_of(scene)
+    return grasp_action(scene, scene.initial_state(), corridor, ARM, options, lambda each: each in rejected or None)
+
+
+def every_grasp(scene: Scene, options: PushingOptions) -> tuple[Action, ...]:
+    """All that is proposed, one after another being rejected."""
+    rejected: tuple[Action, ...] = ()
+    while isinstance(found := planned(scene, rejected, options), Grasp):
+        rejected = (*rejected, found.action)
+    return rejected
 
 
 def grasp(scene: Scene, state: State | None = None) -> Action | Infeasible:
@@ -78,8 +91,8 @@ def test_the_open_arm_keeps_its_clearance_from_everything_on_the_way_in(scene: S
     for pose in on_the_way_in(found):
         gaps = gaps_to_points(outlines, pose, centers) - scene.radii
         assert gaps[scene.target_index] >= 0.003 - 1e-9, "the fingers pass beside the target"
-        assert np.delete(gaps, scene.target_index).min(initial=1.0) >= NEIGHBOUR_CLEARANCE - 1e-9
-        assert gap_to_walls(outlines, pose) >= NEIGHBOUR_CLEARANCE - 1e-6
+        assert np.delete(gaps, scene.target_index).min(initial=1.0) >= PushingOptions().neighbour_clearance - 1e-9
+        assert gap_to_walls(outlines, pose) >= PushingOptions().neighbour_clearance - 1e-6
 
 
 @often
@@ -90,7 +103,7 @@ def test_the_grasp_is_where_the_target_is_and_the_withdrawal_goes_straight_out(s
         return
     start, tip, closing, end = found.path.poses
     assert found.path.phases == (Phase.REACH, Phase.GRASP, Phase.WITHDRAW)
-    assert (found.grasps, found.moves) == (True, ("target",))
+    assert (found.kind, found.moves) == (ActionKind.GRASP, ("target",))
     assert len({pose[2] for pose in found.path.poses}) == 1
     assert abs(tip[2] - corridor_of(scene).angle) <= math.radians(15.0) + 1e-12
     ahead, target = np.array([math.cos(tip[2]), math.sin(tip[2])]), scene.initial_state().positions[0]
@@ -118,7 +131,7 @@ def test_it_is_refused_only_where_at_every_yaw_something_is_in_the_way(scene: Sc
     found = grasp(scene)
     if isinstance(found, Action):
         return
-    ways = [_touched(scene, yaw, past, clearance) for past, clearance in FITS for yaw in YAW_STEPS]
+    ways = [_touched(scene, yaw, past, clearance) for past, clearance in FITS for yaw in YAW_STEPS[:7]]
     touched = [names for names in ways if names is not None]
     assert all(touched) or found.reason.startswith("grasp blocked by a wall")
     if found.blockers:
@@ -134,10 +147,10 @@ def _touched(scene: Scene, deviation: float, past: float, clearance: float) -> s
     tip = centers[0] + past * ahead
     length = (tip[0] + 0.05) / ahead[0]
     ways = [np.array([*(tip - fraction * length * ahead), yaw]) for fraction in np.linspace(0.0, 1.0, 7)]
-    if min(gap_to_walls(outlines, pose) for pose in ways) < NEIGHBOUR_CLEARANCE - 1e-6:
+    if min(gap_to_walls(outlines, pose) for pose in ways) < PushingOptions().neighbour_clearance - 1e-6:
         return None
     gaps = gaps_to_points([_drawn_back(outline, length) for outline in outlines], ways[0], centers) - scene.radii
-    return {scene.ids[row] for row in np.flatnonzero(gaps < NEIGHBOUR_CLEARANCE) if row}
+    return {scene.ids[row] for row in np.flatnonzero(gaps < PushingOptions().neighbour_clearance) if row}
 
 
 def _drawn_back(outline: Outline, length: float) -> Outline:
@@ -149,7 +162,13 @@ def _drawn_back(outline: Outline, length: float) -> Outline:
 def test_the_yaw_deviates_by_up_to_15_degrees_either_way() -> None:
     assert YAW_STEPS[0] == 0.0
     assert sorted(YAW_STEPS) == pytest.approx(sorted(-step for step in YAW_STEPS))
-    assert max(YAW_STEPS) == pytest.approx(math.radians(15.0))
+    assert PushingOptions().max_grasp_turn == pytest.approx(math.radians(15.0), abs=1e-4)
+    assert max(YAW_STEPS[:7]) == pytest.approx(math.radians(15.0))
+    scene = scene_of((0.4, 0.3))
+    for turn, tried in ((0.0, 1), (math.radians(15.0), 7), (math.radians(25.0), 11)):
+        yaws = {action.path.poses[0, 2] for action in every_grasp(scene, PushingOptions(max_grasp_turn=turn))}
+        assert len(yaws) == tried
+        assert max(map(abs, yaws)) == pytest.approx(turn, abs=1e-9)
 
 
 def test_a_neighbour_on_one_side_turns_the_gripper_away() -> None:
@@ -209,7 +228,7 @@ def test_only_the_target_may_be_touched_at_the_set_speed_and_the_fingers_close()
     assert isinstance(grasp, Grasp)
     found = grasp.action
     for phase in found.path.phases:
-        assert (found.path.rules[phase].speed, found.path.rules[phase].contacts) == (0.125, Contacts.TARGET)
+        assert (found.path.rules[phase].speed, found.path.rules[phase].contacts) == (0.125, Contacts.MANIPULAND)
     openings = [found.path.rules[phase].opening for phase in found.path.phases]
     assert openings == pytest.approx([2 * (RADIUS + 0.008), 0.0, 0.0])
 
@@ -230,10 +249,9 @@ def test_a_grasp_that_is_turned_or_tight_says_so(scene: Scene) -> None:
 
 def test_rejected_grasps_are_not_proposed_until_none_is_left() -> None:
     scene = scene_of((0.4, 0.3))
-    rejected: tuple[Action, ...] = ()
-    while isinstance(found := planned(scene, rejected), Grasp):
-        assert found.action not in rejected
-        rejected = (*rejected, found.action)
-    assert len(rejected) == len(FITS) * len(YAW_STEPS)
+    rejected = every_grasp(scene, PushingOptions())
+    assert len(set(rejected)) == len(rejected) == len(FITS) * 7
+    found = planned(scene, rejected)
+    assert isinstance(found, Infeasible)
     assert found.blockers == ()
     assert "the arm cannot" in found.reason

@@ -10,6 +10,7 @@ import pytest
 
 from phframe.core import (
     Action,
+    ActionKind,
     ArmState,
     Budget,
     Condition,
@@ -23,10 +24,9 @@ from phframe.core import (
     Transition,
 )
 from phframe.planners.ooa import OOA
-from phframe.pushing.deviation import Deviation
-from phframe.pushing.options import PushingOptions
+from phframe.pushing import Deviation, PushDecision, PushingOptions
 from phframe.topology.single_linkage import SingleLinkage
-from tests.pushing.parts import ARM, scene_of
+from tests.pushing.parts import ARM, RETRIEVE, rejections, scene_of
 
 Answer = Callable[[State, Action], Transition]
 BLOCKED = scene_of((0.45, 0.3), (0.2, 0.31))
@@ -41,11 +41,12 @@ def task_of(scene: Scene, answer: Answer, rejected: tuple[Action, ...] = ()) -> 
     return Task(
         scene=scene,
         start=start,
+        goal=RETRIEVE,
         arm=ARM,
         topology=topology,
-        apply=answer,
+        apply=lambda state, action, stop: answer(state, action),
         rng=rng,
-        rejected=rejected,
+        rejected=rejections(rejected),
         budget=Budget(20.0),
     )
 
@@ -67,12 +68,12 @@ def grasped(state: State, action: Action) -> Transition:
 
 
 def stays(state: State, action: Action) -> Transition:
-    return grasped(state, action) if action.grasps else Transition(state, Motion(1.0))
+    return grasped(state, action) if action.kind is ActionKind.GRASP else Transition(state, Motion(1.0))
 
 
 def aside(state: State, action: Action) -> Transition:
     """Every push takes the object it means out of the corridor."""
-    if action.grasps:
+    if action.kind is ActionKind.GRASP:
         return grasped(state, action)
     return Transition(moved(state, 1, (0.0, 0.15)), Motion(1.0))
 
@@ -80,10 +81,11 @@ def aside(state: State, action: Action) -> Transition:
 def test_pushes_until_the_corridor_is_empty_and_then_grasps() -> None:
     found = plan(BLOCKED, aside)
     assert (found.status, found.reason) == (Status.RETRIEVED, "")
-    assert [action.grasps for action in found.actions] == [False, True]
-    assert [decision.parent for decision in found.decisions] == [None, 0]
+    assert [action.kind for action in found.actions] == [ActionKind.PUSH, ActionKind.GRASP]
+    assert found.tree is not None
+    assert [node.parent for node in found.tree.path] == [0, 1]
     assert found.expected[-1].held == "target"
-    assert found.decisions[-1].corridor == found.decisions[0].corridor
+    assert PushDecision.of(found.decisions[-1]).corridor == PushDecision.of(found.decisions[0]).corridor
 
 
 def test_an_empty_corridor_is_left_alone() -> None:
@@ -101,6 +103,8 @@ def test_a_push_that_moves_nothing_is_a_failure_after_all_were_tried() -> None:
     found = plan(BLOCKED, answer)
     assert (found.status, found.actions) == (Status.FAILED, ())
     assert found.reason == f"nothing moved: {tried[0].name}"
+    assert found.tree is not None
+    assert [node.closed for node in found.tree.nodes[1:]].count("nothing moved") == len(tried) - 1
     assert len({action.name for action in tried}) == 2
     assert found.cost.simulated_actions == len(tried)
 
@@ -111,7 +115,7 @@ def test_more_than_a_millimetre_is_a_move() -> None:
     assert found.reason == "the corridor is not empty after 4 actions"
 
 
-def test_the_first_that_does_no_harm_is_taken() -> None:
+def test_the_first_without_a_penalty_is_taken() -> None:
     """The first proposal stalls, the second does not."""
 
     def answer(state: State, action: Action) -> Transition:
@@ -127,12 +131,14 @@ def test_the_first_that_does_no_harm_is_taken() -> None:
 
 
 @pytest.mark.parametrize(("first", "taken"), [("spills", 0), ("stalls", 1), ("stays", 1)])
-def test_of_several_harms_a_spill_is_less_than_a_stall_and_that_less_than_nothing_moved(first: str, taken: int) -> None:
+def test_of_several_penalties_a_spill_is_less_than_a_stall_and_that_less_than_nothing_moved(
+    first: str, taken: int
+) -> None:
     """Whatever the first does, the second stalls or spills: the lesser of the two is kept."""
     tried: list[Action] = []
 
     def answer(state: State, action: Action) -> Transition:
-        if action.grasps:
+        if action.kind is ActionKind.GRASP:
             return grasped(state, action)
         tried.append(action)
         there, stalls = moved(state, 1, (0.0, 0.15)), Motion(1.0, stalled=True)
@@ -156,18 +162,18 @@ def test_what_the_grasp_came_to_is_the_status() -> None:
     empty = plan(FREE, lambda state, action: Transition(state, Motion(1.0)))
     assert (empty.status, empty.reason) == (Status.REACHED, "the target was not held")
     stalled = plan(FREE, lambda state, action: Transition(state, Motion(1.0, stalled=True)))
-    assert (stalled.status, stalled.reason) == (Status.CLEARED, "the reach stalled")
+    assert (stalled.status, stalled.reason) == (Status.CLEARED, "the reach stalled: the arm stalled at 0 N")
     assert len(stalled.actions) == len(stalled.expected) == len(stalled.decisions) == 1
 
 
 def test_what_blocks_the_grasp_is_pushed_once() -> None:
     def answer(state: State, action: Action) -> Transition:
-        if action.grasps:
+        if action.kind is ActionKind.GRASP:
             return grasped(state, action)
         return Transition(moved(state, BESIDE.index(action.moves[0]), (0.0, 0.1)), Motion(1.0))
 
     found = plan(BESIDE, answer)
-    first = found.decisions[0]
+    first = PushDecision.of(found.decisions[0])
     assert first.deviations[0] == Deviation.GRASP_BLOCKED
     assert set(first.members) <= {"o0", "o1"}
     assert found.deviations[Deviation.GRASP_BLOCKED] == 1
@@ -204,7 +210,8 @@ def test_rejected_pushes_are_not_proposed_again_until_none_is_left() -> None:
         if not found.actions:
             break
         rejected = (*rejected, found.actions[0])
-    assert (found.status, found.reason) == (Status.FAILED, "no sweep fits beside the closest component")
+    told = "no sweep fits beside the closest component (rejected before: it came to nothing)"
+    assert (found.status, found.reason) == (Status.FAILED, told)
     assert {action.name for action in rejected} == {"sweep north: o0", "sweep south: o0"}
 
 

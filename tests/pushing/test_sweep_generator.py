@@ -1,0 +1,186 @@
+"""Whatever the component and the corridor, every sweep proposed keeps the rules of a sweep."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from phframe.core import FloatArray, Outline, Shelf
+from phframe.pushing import Deviation, PushingOptions
+from phframe.pushing.sweep_generator import TILTS
+from phframe.pushing.tilted_sweep import Direction, Push
+from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, boundary, gap_to_walls, gaps_to_points, highest, often, posed
+from tests.pushing.sweep_cases import Case, cases
+
+KEEP_OFF = 1.2 * RADIUS
+OTHER = {Deviation.OTHER_DIRECTION, Deviation.SPANS_CORRIDOR}
+HAMMER = (
+    Outline("head", np.array([[-0.04, -0.08], [0.0, -0.08], [0.0, 0.08], [-0.04, 0.08]])),
+    Outline("handle", np.array([[-1.3, -0.015], [-0.04, -0.015], [-0.04, 0.015], [-1.3, 0.015]])),
+)
+"""Wider in front than behind, unlike the planar arm: it can be in a place that it cannot come straight out of."""
+directions: st.SearchStrategy[Direction] = st.sampled_from([1, -1])
+tilts = st.sampled_from(TILTS)
+anything = st.one_of(cases(), cases(straight=True), cases(inside=False))
+
+
+def fingertip_poses(case: Case, push: Push, count: int = 5) -> FloatArray:
+    """Poses ``(k, 3)`` in the shelf frame along the way in, across and out."""
+    corners = case.corridor.to_shelf(push.sweep.waypoints)
+    legs = [a + np.linspace(0, 1, count)[:, None] * (b - a) for a, b in pairwise(corners)]
+    positions = np.concatenate(legs)
+    return np.column_stack([positions, np.full(len(positions), case.corridor.angle + push.sweep.tilt)])
+
+
+def pushed(case: Case, push: Push) -> FloatArray:
+    """Where the members' centres ``(k, 2)`` end: one radius ahead of the leading side at their depth."""
+    sweep, front = push.sweep, posed(boundary(ARM.closed), 0.0, 0.0, push.sweep.tilt)[:, 0].max()
+    depths = np.minimum(case.local[:, 0] - sweep.depth, front - 1e-9)
+    sides = np.array([highest(ARM.closed, sweep.tilt, depth, sweep.direction) for depth in depths])
+    return np.column_stack([case.local[:, 0], sweep.end + sweep.direction * (sides + RADIUS)])
+
+
+@often
+@given(anything, directions, tilts)
+def test_the_arm_keeps_its_margin_from_the_walls_all_the_way(case: Case, direction: Direction, tilt: float) -> None:
+    for outlines in (ARM.closed, HAMMER):
+        push = case.fitted(direction, tilt, outlines)
+        if push is not None:
+            for pose in fingertip_poses(case, push):
+                assert gap_to_walls(outlines, pose, case.shelf) >= PushingOptions().wall_clearance - 1e-6
+
+
+@often
+@given(anything)
+def test_the_arm_begins_and_ends_before_the_mouth(case: Case) -> None:
+    for push in case.pushes:
+        poses = fingertip_poses(case, push)
+        for pose in (poses[0], poses[-1]):
+            assert posed(boundary(ARM.closed), *pose)[:, 0].max() == pytest.approx(-0.05, abs=1e-9)
+
+
+@often
+@given(anything)
+def test_the_fingertip_sweeps_no_nearer_to_the_target_than_1_2_radii(case: Case) -> None:
+    corridor = case.corridor
+    target = np.array([corridor.end, corridor.axis])
+    for push in case.pushes:
+        sweep = push.sweep
+        south, north = (highest(ARM.closed, sweep.tilt, 0.0, way) for way in (-1, 1))
+        low, high = min(sweep.lane, sweep.end) - south, max(sweep.lane, sweep.end) + north
+        y = np.array([low, high, np.clip(target[1], low, high)])
+        nearest = np.hypot(sweep.depth - target[0], y - target[1]).min()
+        assert nearest >= KEEP_OFF - 1e-9
+
+
+@often
+@given(anything)
+def test_the_sweep_goes_in_its_direction_and_reaches_the_nearest_member(case: Case) -> None:
+    for push in case.pushes:
+        sweep = push.sweep
+        assert (sweep.end - sweep.lane) * sweep.direction > 0.0
+        assert case.local[:, 0].min() - 0.9 * RADIUS < sweep.depth <= case.local[:, 0].max() + 1e-12
+        assert sweep.tilt in TILTS
+        assert (Deviation.TILTED in push.deviations) is (sweep.tilt != 0.0)
+
+
+@often
+@given(cases())
+def test_a_sweep_that_clears_leaves_every_member_outside_the_corridor_and_off_the_walls(case: Case) -> None:
+    corridor = case.corridor
+    for push in case.pushes:
+        ends = pushed(case, push)
+        across = corridor.to_shelf(ends)[:, 1]
+        room = float(np.minimum(across, case.shelf.width - across).min()) - RADIUS
+        assert room >= -1e-6, "squeezed into a wall"
+        margin = float(((ends[:, 1] - corridor.axis) * push.sweep.direction).min()) - HALF_WIDTH
+        if abs(margin) > 1e-6 and room > 1e-6:
+            assert push.clears is (margin > 0.0)
+        if push.clears:
+            assert margin > -1e-6
+
+
+def test_what_is_swept_up_to_the_wall_and_out_of_the_corridor_is_cleared() -> None:
+    case = Case(Shelf(0.4, 0.4), (0.2, 0.03), np.array([[0.08489662, 0.11480898]]))
+    pushes = {push.sweep.direction: push for push in case.pushes if Deviation.SWEEP_CLAMPED in push.deviations}
+    ends = pushed(case, pushes[-1])
+    assert (case.corridor.axis - ends[:, 1]).min() > HALF_WIDTH
+    assert case.corridor.to_shelf(ends)[:, 1].min() == pytest.approx(RADIUS, abs=1e-6)
+    assert pushes[-1].clears
+
+
+@often
+@given(anything)
+def test_what_is_not_clamped_is_the_papers_sweep(case: Case) -> None:
+    for push in case.pushes:
+        sweep, rectangle = push.sweep, case.geometry.rectangle
+        if Deviation.SWEEP_CLAMPED not in push.deviations:
+            leading = (pushed(case, push)[:, 1] - case.corridor.axis) * sweep.direction - RADIUS
+            assert leading.min() == pytest.approx(HALF_WIDTH + 1e-3, abs=1e-6)
+        if not {Deviation.LANE_CLAMPED, Deviation.LANE_SHIFTED} & {*push.deviations}:
+            inserted = np.array([sweep.depth, sweep.lane, sweep.tilt])
+            assert gaps_to_points(ARM.closed, inserted, case.local).min() >= RADIUS - 1e-9
+            near = rectangle.lower[1] if sweep.direction == 1 else rectangle.upper[1]
+            widest = (near - sweep.lane) * sweep.direction - RADIUS - 0.005
+            sampled = max(
+                highest(ARM.closed, sweep.tilt, x - sweep.depth, sweep.direction)
+                for x in np.linspace(rectangle.lower[0] - RADIUS, rectangle.upper[0] + RADIUS, 60)
+            )
+            assert widest >= sampled - 1e-9
+            if sweep.tilt == 0.0:
+                assert widest in [pytest.approx(width) for width in (0.009, 0.049, 0.06)]
+
+
+@often
+@given(anything)
+def test_at_most_two_are_proposed_in_each_direction_and_those_that_clear_come_first(case: Case) -> None:
+    pushes = case.pushes
+    clears = [push.clears for push in pushes]
+    assert clears == sorted(clears, reverse=True)
+    for direction in (1, -1):
+        same = [push for push in pushes if push.sweep.direction == direction]
+        assert [push.clears for push in same] in ([], [True], [False], [True, False])
+        assert len({bool(OTHER & {*push.deviations}) for push in same}) <= 1
+    for push in pushes:
+        assert (Deviation.NOT_CLEARING in push.deviations) is not push.clears
+    ranks = [(not push.clears, push.clears and push.rams) for push in pushes]
+    assert ranks == sorted(ranks), "what rams on its way in comes after what does not"
+    for rank in set(ranks):
+        part = [push for push, its in zip(pushes, ranks, strict=True) if its == rank]
+        other = [bool(OTHER & {*push.deviations}) for push in part]
+        assert other == sorted(other), "the paper's direction comes first"
+
+
+@often
+@given(anything, directions, tilts)
+def test_north_and_south_are_mirror_images(case: Case, direction: Direction, tilt: float) -> None:
+    push, other = case.fitted(direction, tilt), case.mirrored.fitted(-direction, -tilt)
+    assert (push is None) is (other is None)
+    if push is not None and other is not None:
+        assert other.deviations == push.deviations
+        one, two, axes = push.sweep, other.sweep, (case.corridor.axis, case.mirrored.corridor.axis)
+        assert (two.depth, two.entry, two.exit) == pytest.approx((one.depth, one.entry, one.exit), abs=1e-9)
+        offsets = (one.lane - axes[0], one.end - axes[0])
+        assert (axes[1] - two.lane, axes[1] - two.end) == pytest.approx(offsets, abs=1e-9)
+
+
+def test_a_sweep_up_to_the_margin_fits_on_both_sides() -> None:
+    """The arm's side touches the margin at the mouth's corner, and moves along itself."""
+    case = Case(Shelf(0.6, 0.626), (0.45, 0.064), np.array([[0.198, 0.205]]))
+    fitted = case.fitted(1, 0.0), case.mirrored.fitted(-1, 0.0)
+    assert [push is not None for push in fitted] == [True, True]
+
+
+def test_the_sweep_of_a_lone_object_in_the_middle() -> None:
+    case = Case(Shelf(0.6, 0.6), (0.45, 0.3), np.array([[0.25, 0.32]]))
+    (push, *_) = case.pushes
+    assert (push.deviations, push.clears) == ((), True)
+    sweep = push.sweep
+    assert (sweep.direction, sweep.depth, sweep.tilt) == (1, 0.25, 0.0)
+    assert sweep.lane == pytest.approx(0.32 - 0.009 - 0.03 - 0.005)
+    assert sweep.end == pytest.approx(0.3 + 0.12 + 0.001 - 0.009)
+    assert sweep.entry == sweep.exit == pytest.approx(0.25 + 0.05)
