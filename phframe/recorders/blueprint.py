@@ -16,7 +16,9 @@ IN_FRONT = 0.22
 
 FIELD_OF_VIEW = 55.0
 """Of the viewer's camera, from bottom to top (degrees)."""
-BESIDE, BELOW = 0.45, 0.4
+CORNERS = 0.8
+"""How much of the ball around a box is in view: its corners are empty."""
+BESIDE, BELOW = 0.45, 0.3
 """How far beside its base (m), and below the board, a robot need not be in view."""
 
 
@@ -29,7 +31,7 @@ def blueprint_for(shelf: Shelf, base_pose: BasePose, robot: FloatArray | None = 
         robot: Least and greatest corner ``(2, 3)`` of a robot that is to be in view too, in the shelf frame (m).
     """
     scene = rrb.Horizontal(_solid(shelf, base_pose, robot), _plan_view(shelf), _decision(), column_shares=[5, 5, 3.6])
-    story = rrb.Horizontal(*_plots(), _search(), _story(), column_shares=[1.8, 1.8, 4, 4.4])
+    story = rrb.Horizontal(*_plots(), _search(), _story(), column_shares=[1.7, 1.7, 3.8, 4.8])
     return rrb.Blueprint(
         rrb.Vertical(scene, story, row_shares=[5, 2.4]),
         rrb.TimePanel(state="collapsed", timeline=TIME, play_state="playing"),
@@ -61,7 +63,7 @@ def _beside(shelf: Shelf, base_pose: BasePose, north: bool, robot: FloatArray) -
     high = np.maximum(
         np.minimum(robot[1], [np.inf, base_pose.y + BESIDE, np.inf]), [shelf.depth, shelf.width, shelf.height]
     )
-    ball = 0.5 * float(np.linalg.norm(high - low))
+    ball = CORNERS * 0.5 * float(np.linalg.norm(high - low))
     away = np.array([0.0, 0.8 if north else -0.8, 0.6])
     middle = 0.5 * (low + high)
     return middle + away * ball / np.sin(np.radians(FIELD_OF_VIEW / 2.0)), middle
@@ -80,7 +82,7 @@ def _decision() -> rrb.Container:
         origin="/persistence", name="Persistence", background=palette.BACKGROUND, visual_bounds=bounds
     )
     why = rrb.TextDocumentView(origin="/story/decision", name="Decision")
-    return rrb.Vertical(bars, why, row_shares=[1, 1])
+    return rrb.Vertical(bars, why, row_shares=[1.2, 1])
 
 
 def _plots() -> list[rrb.Container | rrb.View]:

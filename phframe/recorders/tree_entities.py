@@ -44,7 +44,7 @@ def log_tree(stream: Stream, tree: ExploredTree | None) -> None:
 def label(node: SearchNode) -> str:
     """What led to a node, its value, and why it was closed."""
     name = node.action.name if node.action is not None else "start"
-    value = "" if node.value is None else f"value {node.value:g}"
+    value = "" if node.value is None else f"value {node.value + 0.0:g}"  # -0 is 0
     return "\n".join(line for text in (name, value, node.closed) for line in wrap(text, LETTERS))
 
 
