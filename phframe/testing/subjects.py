@@ -31,7 +31,7 @@ DEFAULT_SHELF = Shelf(depth=0.594, width=0.584)
 PhysicsFactory = Callable[[Scene, ArmModel[Any], BasePose], Physics[Any]]
 """Makes a new backend; ``lambda scene, arm, base_pose: MyPhysics(scene, arm, base_pose, MyOptions())``."""
 
-Lift = Callable[[GripperTrajectory, State, ArmModel[Any], BasePose], JointTrajectory]
+PlanTrajectory = Callable[[GripperTrajectory, State, ArmModel[Any], BasePose], JointTrajectory]
 """Finds the joints for a gripper trajectory that begins in a state."""
 
 
@@ -105,7 +105,7 @@ class PhysicsUnderTest:
     factory: PhysicsFactory
     arm: ArmModel[Any]
     tolerances: PhysicsTolerances = PLANAR
-    plan_trajectory: Lift | None = None
+    plan_trajectory: PlanTrajectory | None = None
     name: str = field(default="the backend")
 
     def __str__(self) -> str:

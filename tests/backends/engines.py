@@ -46,9 +46,9 @@ def swept(engine: str, **options: Any) -> Any:
 
 def let_be(backend: Any, seconds: float) -> State:
     """The world after nobody did anything for a while."""
-    world = backend._current
-    for tick in range(round(seconds / world.period)):
-        world.advance()
+    world = backend.world
+    for tick in range(round(seconds / world.engine.period)):
+        world.engine.advance()
         if tick % 10 == 0:
             world.survey()
     state: State = backend.observe()
@@ -66,11 +66,11 @@ def slide(backend: Any, speed: float, angle: float) -> tuple[float, float]:
 
 def set_moving(backend: Any, row: int, velocity: Any) -> None:
     """Give an object that is awake a velocity (m/s)."""
-    world = backend._current
-    if world.engine == "mujoco":
-        world.data.qvel[world.model.moving[row][:3]] = velocity
+    engine = backend.world.engine
+    if engine.name == "mujoco":
+        engine.data.qvel[engine.model.moving[row][:3]] = velocity
     else:
         from phframe.backends.pybullet_.output_capture import bullet
 
         straight = np.asarray(velocity, dtype=float).tolist()
-        bullet.resetBaseVelocity(world._bodies.objects[row], straight, [0.0] * 3, physicsClientId=world.client)
+        bullet.resetBaseVelocity(engine.bodies.objects[row], straight, [0.0] * 3, physicsClientId=engine.client)

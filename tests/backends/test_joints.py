@@ -100,7 +100,7 @@ def test_what_rolls_comes_to_rest(engine: str) -> None:
         backend.restore(State(poses, (Condition.TOPPLED, Condition.UPRIGHT)))
         set_moving(backend, 0, (0.0, 0.1, 0.0))
         ways.append(abs(let_be(backend, 2.0).poses[0, 1] - MIDDLE))
-        assert rolling == 0.0 or backend._current.speeds.max() < 1e-3
+        assert rolling == 0.0 or backend.world.speeds.max() < 1e-3
     assert 0.01 < ways[0] < 0.9 * ways[1]
 
 
@@ -192,9 +192,9 @@ def test_divergence_is_an_error_with_a_reason_and_leaves_no_log(
 def test_what_diverges_on_the_way_is_found(engine: str) -> None:
     with on_stand(subject(engine, sleep=False), crowd()) as stand:
         stand.physics.restore(stand.start)
-        world: Any = stand.physics._current  # type: ignore[attr-defined]
+        inside: Any = stand.physics.world.engine  # type: ignore[attr-defined]
         trajectory = stand.trajectory(stand.start, drive_in(0.1))
-        advance, ticks = world.advance, []
+        advance, ticks = inside.advance, []
 
         def then_wild() -> Any:
             ticks.append(0)
@@ -202,7 +202,7 @@ def test_what_diverges_on_the_way_is_found(engine: str) -> None:
                 set_moving(stand.physics, 0, (0.0, -30.0, 0.0))
             return advance()
 
-        world.advance = then_wild
+        inside.advance = then_wild
         with pytest.raises(SimulationDivergedError, match="'a' moves at"):
             stand.physics.execute(trajectory, settle=None)
         assert len(ticks) < 70

@@ -33,15 +33,15 @@ def test_the_force_told_is_that_of_the_contacts() -> None:
     with on_stand(subject("mujoco"), scene_of(cylinder("load", 0.2, MIDDLE, mass=3.0, friction=0.5))) as stand:
         stand.physics.restore(stand.start)
         stand.physics.execute(stand.trajectory(stand.start, drive_in(0.22, speed=0.1)), settle=None)
-        world = stand.physics._current  # type: ignore[attr-defined]
+        engine = stand.physics.world.engine  # type: ignore[attr-defined]
         total = np.zeros(3)
-        for row, contact in enumerate(world.data.contact):
-            one, other = (world.model.is_arm[geom] for geom in contact.geom)
+        for row, contact in enumerate(engine.data.contact):
+            one, other = (engine.model.is_arm[geom] for geom in contact.geom)
             if one != other:
                 force = np.zeros(6)
-                mujoco.mj_contactForce(world.model.mj, world.data, row, force)
+                mujoco.mj_contactForce(engine.model.mj, engine.data, row, force)
                 total += (1.0 if other else -1.0) * contact.frame.reshape(3, 3).T @ force[:3]
-        count, *told = world.data.sensordata
+        count, *told = engine.data.sensordata
         assert count > 0
         assert np.linalg.norm(total) > 10.0
         assert np.allclose(np.abs(told), np.abs(total), rtol=1e-6, atol=1e-6)
@@ -58,12 +58,12 @@ def test_an_edge_pushes_towards_the_axis(angle: float, depth: float) -> None:
     backend = physics("mujoco", scene_of(cylinder("o", float(center[0]), float(center[1])), TARGET))
     arm = ArmState(np.array([0.2, MIDDLE, 0.0]), 0.0)
     backend.restore(replace(backend.scene.initial_state(), arm=arm))
-    world = backend._current
-    mujoco.mj_forward(world.model.mj, world.data)
+    engine = backend.world.engine
+    mujoco.mj_forward(engine.model.mj, engine.data)
     pushes = [
-        contact.frame[:3] * (1.0 if world.model.is_arm[contact.geom[0]] else -1.0)
-        for contact in world.data.contact
-        if world.model.is_arm[contact.geom[0]] != world.model.is_arm[contact.geom[1]]
+        contact.frame[:3] * (1.0 if engine.model.is_arm[contact.geom[0]] else -1.0)
+        for contact in engine.data.contact
+        if engine.model.is_arm[contact.geom[0]] != engine.model.is_arm[contact.geom[1]]
     ]
     assert pushes
     for push in pushes:

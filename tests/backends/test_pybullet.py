@@ -30,18 +30,18 @@ def world_of(
     """The engine's world of a scene, restored to a state."""
     backend = physics("pybullet", scene_of(*items, shelf=shelf), arm, **options)
     backend.restore(state or backend.scene.initial_state())
-    return backend._current
+    return backend.world
 
 
 def drive(world: Any, joints: FloatArray, seconds: float, opening: float = 0.0) -> FloatArray:
     """Tell the joints at once to be elsewhere, for so long; what the arm feels in the end, and its speeds all along."""
     told = np.array(joints, dtype=float)[None]
-    control = world.controls(told, np.zeros_like(told), world.finger_values([opening]))[0]
+    control = world.engine.controls(told, np.zeros_like(told), world.finger_values([opening]))[0]
     speeds = []
-    for _ in range(round(seconds / world.period)):
-        world.tell(control)
-        world.advance()
-        speeds.append(np.abs(world.joint_speeds))
+    for _ in range(round(seconds / world.engine.period)):
+        world.engine.command(control)
+        world.engine.advance()
+        speeds.append(np.abs(world.engine.memory()[-5:]))
     return np.asarray(np.max(speeds, axis=0))
 
 
@@ -80,7 +80,7 @@ def test_objects_rub_against_one_another_as_told(between: float) -> None:
     set_moving(backend, 0, (0.3, 0.0, 0.0))
     slipping = 0.02
     let_be(backend, slipping)
-    speed = float(backend._current.velocities[1, 0])
+    speed = float(backend.world.engine.objects().velocities[1, 0])
     assert speed == pytest.approx(between * 9.81 * slipping, abs=0.01)
 
 
@@ -88,12 +88,12 @@ def test_objects_rub_against_one_another_as_told(between: float) -> None:
 def test_no_joint_gives_more_than_its_effort(effort: float) -> None:
     """Told to be in a wall, the arm presses with what it may give, and that is the force that is told."""
     world = world_of(cylinder("o", 0.5, 0.1), TARGET)
-    world.cap(np.array([200.0, effort, 100.0]))
+    world.engine.cap(np.array([200.0, effort, 100.0]))
     drive(world, np.array([0.3, -0.4, 0.0]), 4.0)
-    *_, touching, force = world.advance()
+    *_, touching, force = world.engine.advance()
     assert touching
-    assert {world.names(pair) for pair in world.touching()} == {("link", "south wall", True)}
-    assert world.given[1] == pytest.approx(effort, rel=1e-3)
+    assert {contact[:3] for contact in world.engine.contacts()} == {("link", "south wall", True)}
+    assert world.engine.arm().efforts[1] == pytest.approx(effort, rel=1e-3)
     assert force == pytest.approx(effort, rel=0.1)
 
 
@@ -112,8 +112,8 @@ def test_fingers_are_coupled() -> None:
     apart = []
     for _ in range(100):
         drive(world, np.array([0.32, -0.16, 0.0]), 0.01, opening=0.08)
-        apart.append(float(np.ptp(world.fingers)))
-    assert world.fingers.max() > 0.005, "they open"
+        apart.append(float(np.ptp(world.engine.arm().fingers)))
+    assert world.engine.arm().fingers.max() > 0.005, "they open"
     assert max(apart) < 1e-3
 
 
@@ -153,9 +153,9 @@ def test_joints_that_are_none_of_the_arm_stay_where_they_are() -> None:
 def _values_by_name(world: Any) -> dict[str, float]:
     from phframe.backends.pybullet_.output_capture import bullet
 
-    body, client = world._loaded.body, {"physicsClientId": world.client}
-    names = (bullet.getJointInfo(body, joint, **client)[1].decode() for joint in world._loaded.movable)
-    values = (bullet.getJointState(body, joint, **client)[0] for joint in world._loaded.movable)
+    body, client = world.engine.loaded.body, {"physicsClientId": world.engine.client}
+    names = (bullet.getJointInfo(body, joint, **client)[1].decode() for joint in world.engine.loaded.movable)
+    values = (bullet.getJointState(body, joint, **client)[0] for joint in world.engine.loaded.movable)
     return dict(zip(names, values, strict=True))
 
 
@@ -167,8 +167,8 @@ def test_an_edge_pushes_towards_the_axis(angle: float) -> None:
     scene = scene_of(cylinder("o", float(center[0]), float(center[1])), TARGET)
     state = replace(scene.initial_state(), arm=ArmState(np.array([0.2, MIDDLE, 0.0]), 0.0))
     world = world_of(*scene.objects, state=state)
-    world.advance()
-    pushes = [push for _, _, push in world.pushes()]
+    world.engine.advance()
+    pushes = [contact.push for contact in world.engine.contacts() if contact.finger and contact.row is not None]
     assert pushes
     for push in pushes:
         assert math.degrees(math.atan2(push[1], push[0])) == pytest.approx(angle, abs=3.0)
@@ -177,14 +177,14 @@ def test_an_edge_pushes_towards_the_axis(angle: float) -> None:
 def test_an_even_push_takes_what_friction_does() -> None:
     with on_stand(subject("pybullet"), scene_of(cylinder("load", 0.2, MIDDLE, mass=3.0, friction=0.5))) as stand:
         stand.physics.restore(stand.start)
-        world: Any = stand.physics._current  # type: ignore[attr-defined]
-        advance, forces = world.advance, []
+        world: Any = stand.physics.world  # type: ignore[attr-defined]
+        advance, forces = world.engine.advance, []
 
         def noting() -> Any:
             forces.append((made := advance())[3])
             return made
 
-        world.advance = noting
+        world.engine.advance = noting
         stand.physics.execute(stand.trajectory(stand.start, drive_in(0.3, speed=0.05)), settle=None)
     assert np.median(forces[-200:]) == pytest.approx(0.5 * 3.0 * 9.81, rel=0.05)
 
@@ -260,10 +260,10 @@ def baxter() -> Any:
 def test_baxter_stands_still_and_has_its_fingertip_where_forward_says(baxter: Any) -> None:
     world = world_of(cylinder("o", 0.3, MIDDLE), TARGET, arm=baxter)
     for _ in range(500):
-        world.advance()
-    assert np.abs(world.joints - baxter.home).max() < 1e-6
-    tip = compose(world.base_pose.pose, baxter.forward(world.joints))
-    assert np.allclose(world.gripper, [tip[0], tip[1], yaw_of(tip)], atol=1e-5)
+        world.engine.advance()
+    assert np.abs(world.engine.arm().joints - baxter.home).max() < 1e-6
+    tip = compose(world.base_pose.pose, baxter.forward(world.engine.arm().joints))
+    assert np.allclose(world.engine.arm().gripper, [tip[0], tip[1], yaw_of(tip)], atol=1e-5)
 
 
 @pytest.mark.needs_baxter
@@ -272,24 +272,24 @@ def test_joints_carry_their_weight_besides_what_motors_give(baxter: Any) -> None
     fallen = []
     for carried in (True, False):
         world = world_of(cylinder("o", 0.3, MIDDLE), TARGET, arm=baxter)
-        assert world._sags
-        world._sags = carried
-        world.cap(np.full(7, 0.05))
+        assert world.engine.sags
+        world.engine.sags = carried
+        world.engine.cap(np.full(7, 0.05))
         for _ in range(100):
-            world.advance()
-        fallen.append(float(np.abs(world.joints - baxter.home).max()))
+            world.engine.advance()
+        fallen.append(float(np.abs(world.engine.arm().joints - baxter.home).max()))
     assert fallen[0] < 1e-3
     assert fallen[1] > 0.1
 
 
 def test_an_arm_that_moves_level_has_no_weight_to_carry() -> None:
-    assert not world_of(cylinder("o", 0.3, MIDDLE), TARGET)._sags
+    assert not world_of(cylinder("o", 0.3, MIDDLE), TARGET).engine.sags
 
 
 def test_worlds_that_nobody_closes_give_their_clients_back() -> None:
     clients = set()
     for _ in range(5):
         world = world_of(cylinder("o", 0.3, MIDDLE), TARGET)
-        clients.add(world.client)
+        clients.add(world.engine.client)
         del world
     assert len(clients) < 5

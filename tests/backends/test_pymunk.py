@@ -11,9 +11,9 @@ import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
-from phframe.core import JointTrajectory, OptionError
+from phframe.core import FloatArray, JointTrajectory, OptionError, Phase, State, Stop, StopCause
 from phframe.testing import PHYSICS_CHECKS, PhysicsUnderTest
-from phframe.testing.physics.paths import CROWD_SWEEP, MIDDLE, crowd, cylinder, drive_in, scene_of
+from phframe.testing.physics.paths import CROWD_SWEEP, MIDDLE, crowd, cylinder, drive_in, grasp, path, scene_of
 from phframe.testing.physics.stand import on_stand
 
 ARM = PlanarArm(PlanarArmOptions())
@@ -77,6 +77,68 @@ def test_a_push_off_centre_turns_an_object_aside() -> None:
             moved = state.positions[0] - stand.start.positions[0]
             assert np.sign(moved[1]) == np.sign(offset)
             assert moved[0] > 0.02
+
+
+def _gripper(state: State) -> FloatArray:
+    assert state.arm is not None
+    return state.arm.gripper
+
+
+@pytest.mark.parametrize("mass", [0.3, 4.0])
+@pytest.mark.parametrize("fast", [True, False], ids=["fast-forwarded", "stepped"])
+def test_what_is_held_drags_along_the_board(mass: float, fast: bool) -> None:
+    """Coulomb's mu m g, in the shelf; a moving object somewhere keeps the arm from being fast-forwarded."""
+    other = cylinder("other", 0.45, 0.5, friction=0.25 if fast else 0.01)
+    with on_stand(subject(), scene_of(other, cylinder("target", 0.25, MIDDLE, mass=mass))) as stand:
+        gripped = stand.run(stand.start, grasp(ARM, 0.25, withdraw=False)).state
+        physics = stand.physics
+        assert isinstance(physics, PymunkPhysics)
+        physics.restore(gripped)
+        if not fast:
+            physics._current.items["other"].body.velocity = 0.0, -0.05
+            physics._current.at_rest = False
+        out = path(np.array([_gripper(gripped), [0.1, MIDDLE, 0.0]]), [Phase.WITHDRAW], speed=0.2)
+        motion = physics.execute(stand.trajectory(gripped, out), settle=None)
+        assert motion.complete
+        assert motion.largest_force == pytest.approx(0.25 * mass * 9.81, rel=0.05)
+        assert stand.center(physics.observe(), "target") == pytest.approx([0.08, MIDDLE], abs=1e-3)
+
+
+def test_a_stop_at_a_force_counts_what_is_dragged() -> None:
+    with on_stand(
+        subject(), scene_of(cylinder("other", 0.45, 0.5), cylinder("target", 0.25, MIDDLE, mass=4.0))
+    ) as stand:
+        motion = stand.run(stand.start, grasp(ARM, 0.25), stop=Stop(force=8.0)).motion
+        assert motion.stopped is not None
+        assert motion.stopped.cause is StopCause.FORCE
+        assert motion.stopped.force == pytest.approx(8.0, rel=0.3)
+
+
+def test_a_held_object_has_no_board_under_it_outside() -> None:
+    with on_stand(subject(), scene_of(cylinder("other", 0.45, 0.5), cylinder("target", 0.25, MIDDLE))) as stand:
+        out = stand.run(stand.start, grasp(ARM, 0.25)).state
+        physics = stand.physics
+        assert isinstance(physics, PymunkPhysics)
+        for state in (out, physics.restore(out)):
+            assert state.held == "target"
+            assert not physics._current.items["target"].on_board
+        back = path(np.array([_gripper(out), [0.2, MIDDLE, 0.0]]), [Phase.PLACE])
+        physics.execute(stand.trajectory(out, back), settle=None)
+        assert physics._current.items["target"].on_board, "carried in again"
+
+
+def test_control_level_steering_does_not_brake() -> None:
+    """A twist is held to its end, whatever the arm does at the corners of a path."""
+    ends = []
+    for options in (PymunkOptions(), PymunkOptions(arm_acceleration=1.0)):
+        with on_stand(subject(options), scene_of(cylinder("o", 0.15, MIDDLE))) as stand:
+            physics = stand.physics
+            assert isinstance(physics, PymunkPhysics)
+            physics.restore(stand.run(stand.start, drive_in(0.05)).state)
+            end, _ = physics.propagate(physics.snapshot(), np.array([0.3, 0.0, 0.0]), 0.3)
+            ends.append(end.velocities)
+    assert ends[0].any(), "it is pushed at the end"
+    assert ends[1].tolist() == ends[0].tolist()
 
 
 class ByJoints(PymunkPhysics):

@@ -7,8 +7,10 @@ from itertools import count
 from typing import Any, ClassVar
 
 import numpy as np
+import pymunk
 
 from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
+from phframe.backends.pymunk_.world import WALL
 from phframe.core import (
     ArmModel,
     BasePose,
@@ -213,6 +215,36 @@ class NeverSettles(Without):
     left_out = "settle"
 
 
+class BrakesOnlyToSettle(Altered):
+    """Stops dead at every corner of its path unless somebody waits for rest afterwards."""
+
+    def execute(
+        self, trajectory: Trajectory, *, settle: Settle | None, stop: Stop | None = None, watch: Watch | None = None
+    ) -> Motion:
+        self.options = self.options.model_copy(update={"arm_acceleration": None if settle is None else 2.0})
+        return super().execute(trajectory, settle=settle, stop=stop, watch=watch)
+
+
+class WallsWithoutEnd(Altered):
+    """Its south wall goes on before the mouth."""
+
+    def restore(self, state: State) -> State:
+        restored = super().restore(state)
+        world = self._current
+        wall = pymunk.Poly(world.space.static_body, [(-1.0, -1.0), (0.0, -1.0), (0.0, 0.0), (-1.0, 0.0)])
+        wall.collision_type = WALL
+        world.names[wall] = "south wall"
+        world.space.add(wall)
+        return restored
+
+
+class NeverOpens(Altered):
+    """Its fingers close, and stay so."""
+
+    def driven(self, trajectory: GripperTrajectory) -> GripperTrajectory:
+        return replace(trajectory, openings=np.minimum.accumulate(trajectory.openings))
+
+
 class Drifts(Altered):
     time = 0.0
 
@@ -246,6 +278,11 @@ class Slippery(OtherScene):
 class HeavyThingsStick(OtherScene):
     def altered(self, item: SceneObject) -> SceneObject:
         return replace(item, friction=min(0.25 * item.mass / 0.3, 1.0))
+
+
+class NothingIsHeavy(OtherScene):
+    def altered(self, item: SceneObject) -> SceneObject:
+        return replace(item, mass=0.3)
 
 
 class SoftWalls(OtherScene):

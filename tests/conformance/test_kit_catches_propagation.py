@@ -10,7 +10,7 @@ import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
-from phframe.backends.pymunk_.snapshot import Snapshot
+from phframe.backends.pymunk_.state import PymunkSnapshot
 from phframe.core import (
     ArmModel,
     BasePose,
@@ -37,18 +37,18 @@ class Altered(PymunkPhysics):
 
     def propagate(
         self,
-        snapshot: Snapshot,
+        snapshot: PymunkSnapshot,
         twist: FloatArray,
         dt: float,
         *,
         opening: float | None = None,
         stop: Stop | None = None,
-    ) -> tuple[Snapshot, Motion]:
+    ) -> tuple[PymunkSnapshot, Motion]:
         start, stop = self.begin(snapshot), self.heeded(stop)
         end, motion = super().propagate(start, self.slowed(np.asarray(twist)), dt, opening=opening, stop=stop)
         return self.end(end), motion
 
-    def begin(self, snapshot: Snapshot) -> Snapshot:
+    def begin(self, snapshot: PymunkSnapshot) -> PymunkSnapshot:
         return snapshot
 
     def slowed(self, twist: FloatArray) -> FloatArray:
@@ -57,19 +57,19 @@ class Altered(PymunkPhysics):
     def heeded(self, stop: Stop | None) -> Stop | None:
         return stop
 
-    def end(self, snapshot: Snapshot) -> Snapshot:
+    def end(self, snapshot: PymunkSnapshot) -> PymunkSnapshot:
         return snapshot
 
 
 class Continues(Altered):
     """Goes on from where it is rather than from the snapshot."""
 
-    last: Snapshot | None = None
+    last: PymunkSnapshot | None = None
 
-    def begin(self, snapshot: Snapshot) -> Snapshot:
+    def begin(self, snapshot: PymunkSnapshot) -> PymunkSnapshot:
         return self.last or snapshot
 
-    def end(self, snapshot: Snapshot) -> Snapshot:
+    def end(self, snapshot: PymunkSnapshot) -> PymunkSnapshot:
         self.last = snapshot
         return snapshot
 
@@ -80,18 +80,18 @@ class HalfSpeed(Altered):
 
 
 class Creeps(Altered):
-    def end(self, snapshot: Snapshot) -> Snapshot:
+    def end(self, snapshot: PymunkSnapshot) -> PymunkSnapshot:
         poses = snapshot.state.poses + np.array([1e-3, 0, 0, 0, 0, 0, 0])
         return replace(snapshot, state=replace(snapshot.state, poses=poses))
 
 
 class WithoutSpeeds(Altered):
-    def end(self, snapshot: Snapshot) -> Snapshot:
+    def end(self, snapshot: PymunkSnapshot) -> PymunkSnapshot:
         return replace(snapshot, velocities=0.0 * snapshot.velocities)
 
 
 class LooksAtTheWorld(Altered):
-    def state_of(self, snapshot: Snapshot) -> State:
+    def state_of(self, snapshot: PymunkSnapshot) -> State:
         return self.observe()
 
 
@@ -103,13 +103,13 @@ class NeverStops(Altered):
 class NeedsNoArm(PymunkPhysics):
     def propagate(
         self,
-        snapshot: Snapshot,
+        snapshot: PymunkSnapshot,
         twist: FloatArray,
         dt: float,
         *,
         opening: float | None = None,
         stop: Stop | None = None,
-    ) -> tuple[Snapshot, Motion]:
+    ) -> tuple[PymunkSnapshot, Motion]:
         if snapshot.state.arm is None:
             return snapshot, Motion(dt)
         return super().propagate(snapshot, twist, dt, opening=opening, stop=stop)

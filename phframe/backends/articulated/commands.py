@@ -1,24 +1,24 @@
-"""From a joint trajectory to what the joints are told at every control step; what is beyond an arm is refused."""
+"""Samples a joint trajectory at the control rate, and refuses one that the arm cannot follow from where it is."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from phframe.backends.articulated.world import JointWorld
+from phframe.backends.articulated.world import ArticulatedWorld
+from phframe.backends.contract import START_ANGLE, START_POSITION
 from phframe.core import ArmModel, FloatArray, InputError, JointTrajectory, Phase, Trajectory, compose, yaw_of
 
-START_POSITION, START_ANGLE = 2e-3, 1e-2
-"""How far from the arm (m, rad) a trajectory may begin."""
 SPEED_SLACK = 1.02
 """Joints may be told to be this much faster than they are made for: samples round."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Commands:
+class JointCommands:
     """What the joints are told, one row for each control step.
 
     Attributes:
@@ -27,25 +27,28 @@ class Commands:
         tips: Where the fingertip is meant to be as each control step ends, x and y ``(k, 2)`` (m).
     """
 
-    controls: list[Any]
+    controls: Sequence[Any]
     phases: tuple[Phase, ...]
     tips: FloatArray
 
 
-def commands(world: JointWorld, trajectory: JointTrajectory, period: float) -> Commands:
-    """Sample a trajectory once in every control period (s)."""
+def commands(world: ArticulatedWorld, trajectory: JointTrajectory) -> JointCommands:
+    """Sample a trajectory once in every control step."""
+    engine, period = world.engine, world.engine.period
     times = np.arange(1, math.ceil(trajectory.duration / period - 1e-9) + 1) * period
     positions, velocities = trajectory.sample(times)
     gripper = trajectory.gripper
     openings = np.interp(times, gripper.times, gripper.openings)
-    seen = times - world.delay
+    seen = times - engine.delay
     tips = [np.interp(seen, gripper.times, gripper.poses[:, axis]) for axis in (0, 1)]
     legs = np.searchsorted(gripper.times, times - period / 2.0, side="right") - 1
     phases = tuple(map(gripper.phases.__getitem__, np.minimum(legs, len(gripper.phases) - 1).tolist()))
-    return Commands(world.controls(positions, velocities, world.finger_values(openings)), phases, np.column_stack(tips))
+    return JointCommands(
+        engine.controls(positions, velocities, world.finger_values(openings)), phases, np.column_stack(tips)
+    )
 
 
-def accepted(world: JointWorld, trajectory: Trajectory) -> JointTrajectory:
+def accepted(world: ArticulatedWorld, trajectory: Trajectory) -> JointTrajectory:
     """The trajectory, if the arm can follow it from where it is.
 
     Raises:
@@ -53,7 +56,7 @@ def accepted(world: JointWorld, trajectory: Trajectory) -> JointTrajectory:
     """
     if not isinstance(trajectory, JointTrajectory):
         raise InputError(
-            f"the {world.engine} backend drives joints: it needs a JointTrajectory, as a motion planner makes them"
+            f"the {world.engine.name} backend drives joints: it needs a JointTrajectory, as a motion planner makes them"
         )
     dof = len(world.arm.joints)
     if trajectory.positions.shape[1] != dof:
@@ -63,11 +66,12 @@ def accepted(world: JointWorld, trajectory: Trajectory) -> JointTrajectory:
     return trajectory
 
 
-def _refuse_jump(world: JointWorld, trajectory: JointTrajectory) -> None:
-    x, y, yaw = world.gripper
+def _refuse_jump(world: ArticulatedWorld, trajectory: JointTrajectory) -> None:
+    arm = world.engine.arm()
+    x, y, yaw = arm.gripper
     begin = compose(world.base_pose.pose, world.arm.forward(trajectory.positions[0]))
     distance, turn = math.hypot(begin[0] - x, begin[1] - y), abs(_wrapped(yaw_of(begin) - yaw))
-    joints = float(np.abs(trajectory.positions[0] - world.joints).max())
+    joints = float(np.abs(trajectory.positions[0] - arm.joints).max())
     if distance > START_POSITION or turn > START_ANGLE or joints > START_ANGLE:
         raise InputError(
             f"the trajectory begins {distance:.3f} m, {turn:.3f} rad and up to {joints:.3f} in a joint from where the arm is"

@@ -1,10 +1,13 @@
-"""What the arm touches, and what its fingers hold between them: read from the engine's contacts."""
+"""What the arm touches, and which object its fingers hold between them, read from the engine's contacts."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
-from phframe.backends.articulated.world import JointWorld, Pair, Vector
+from phframe.backends.articulated.engine import EngineContact, Vector
+from phframe.backends.articulated.world import ArticulatedWorld
+from phframe.backends.contract import Touch
 
 OPPOSED = -0.7
 """Two fingers hold what they press from opposite sides: the cosine between their pushes is below this."""
@@ -15,32 +18,32 @@ REREAD = 0.02
 LOST = 0.1
 """What the fingers have not pressed for this long (s) is no longer held."""
 
-Touch = tuple[float, str, str, bool]
-"""Time (s), part of the arm, what it met, whether that is a wall."""
 
-
-class Touches:
+class TouchLog:
     """What the arm has touched since a motion began.
 
     Args:
         world: Whose contacts are read.
     """
 
-    def __init__(self, world: JointWorld) -> None:
+    def __init__(self, world: ArticulatedWorld) -> None:
         self._world = world
         self.found: list[Touch] = []
-        self._known: set[Pair] = set()
+        self._known: set[tuple[str, str, bool]] = set()
         self._count, self._read_at, self._told = 0.0, 0.0, 0
         self._last_grip = self._held_at = 0.0
 
     def look(self, time: float, count: float) -> None:
         """Write down what the arm touches at a time (s), which has so many contacts."""
-        if count > self._count or (count and time - self._read_at >= REREAD):
-            self._read(time)
+        read = count > self._count or (count and time - self._read_at >= REREAD)
+        grip = time - self._held_at >= REREAD and (self._world.held is not None or count)
         self._count = count
-        if time - self._held_at >= REREAD and (self._world.held is not None or (count and self._squeezing)):
-            self._held_at = time
-            self._hold(time)
+        if read or grip:
+            contacts = list(self._world.engine.contacts())
+            if read:
+                self._read(time, contacts)
+            if grip:
+                self._hold(time, _gripped(contacts))
 
     def forget_phase(self) -> None:
         """Write down again what is touched already, as a new phase begins."""
@@ -56,39 +59,39 @@ class Touches:
         told, self._told = self._told, len(self.found)
         return self.found[told:]
 
-    @property
-    def _squeezing(self) -> bool:
-        return self._world.opening - self._world.command > SQUEEZE
-
-    def _read(self, time: float) -> None:
+    def _read(self, time: float, contacts: Sequence[EngineContact]) -> None:
         """Note what a part of the arm touches for the first time in this phase."""
-        self._read_at = time
-        for pair in self._world.touching():
-            if pair not in self._known:
-                self._known.add(pair)
-                self.found.append((time, *self._world.names(pair)))
+        self._read_at, known = time, self._known
+        for contact in contacts:
+            touch = contact[:3]
+            if touch not in known:
+                known.add(touch)
+                self.found.append((time, *touch))
 
-    def _hold(self, time: float) -> None:
+    def _hold(self, time: float, gripped: int | None) -> None:
         """An object is held from when it is squeezed until it has been out of the fingers' grip for a while."""
-        world, gripped = self._world, self._gripped()
-        if gripped is not None:
+        world, self._held_at = self._world, time
+        if gripped is not None and (world.held is not None or world.squeeze > SQUEEZE):
             self._last_grip = time
             if world.held != gripped:
                 world.hold(gripped)
         elif world.held is not None and time - self._last_grip > LOST:
             world.hold(None)
 
-    def _gripped(self) -> int | None:
-        """Row of the object that both fingers press from opposite sides, if there is one."""
-        pushes: dict[int, dict[int, Vector]] = {}
-        for row, finger, (x, y, z) in self._world.pushes():
+
+def _gripped(contacts: Sequence[EngineContact]) -> int | None:
+    """Row of the object that both fingers press from opposite sides, if there is one."""
+    pushes: dict[int, dict[int, Vector]] = {}
+    for _, _, _, row, finger, (x, y, z) in contacts:
+        if row is not None and finger:
             fingers = pushes.setdefault(row, {})
             fx, fy, fz = fingers.get(finger, (0.0, 0.0, 0.0))
             fingers[finger] = fx + x, fy + y, fz + z
-        held = (row for row, fingers in pushes.items() if len(fingers) == 2 and _opposed(*fingers.values()))
-        return next(held, None)
+    held = (row for row, fingers in pushes.items() if len(fingers) == 2 and _opposed(*fingers.values()))
+    return next(held, None)
 
 
 def _opposed(one: Vector, other: Vector) -> bool:
+    """Whether the cosine between two pushes, a . b / |a| |b|, is that of fingers which press towards one another."""
     across = one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
     return across < OPPOSED * math.hypot(*one) * math.hypot(*other)

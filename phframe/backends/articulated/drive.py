@@ -4,36 +4,25 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterator
 
 from phframe.backends.articulated.commands import accepted, commands
-from phframe.backends.articulated.contacts import Touches
-from phframe.backends.articulated.force_limiter import Limiter
-from phframe.backends.articulated.world import JointWorld
-from phframe.core import (
-    FORCE_WINDOW,
-    Contact,
-    JointTrajectory,
-    Motion,
-    Settle,
-    Stop,
-    StopCause,
-    StopReason,
-    Trajectory,
-    Watch,
-)
+from phframe.backends.articulated.contacts import TouchLog
+from phframe.backends.articulated.force_limiter import ForceLimiter
+from phframe.backends.articulated.world import ArticulatedWorld
+from phframe.backends.contract import first_contacts, force_reason, touch_reason
+from phframe.core import FORCE_WINDOW, JointTrajectory, Motion, Settle, Stop, StopReason, Trajectory, Watch
 
 SURVEY = 10
 """Control steps between looks at what has left the board."""
 CALM_CHECK = 5
 """Control steps between looks at whether all is at rest."""
-YIELDING = 0.1
+COMPLYING = 0.1
 """For at least this long (s) a stopped arm complies to what presses on it, so that it stands with no preload."""
-LONGEST_YIELDING, YIELDED = 0.5, 3.0
+LONGEST_COMPLYING, COMPLIED = 0.5, 3.0
 """A slow, heavy one does so for up to so long (s), until it is pressed by no more than this (N)."""
 
 
-class Drive:
+class JointDrive:
     """One run along one trajectory: made, run once and dropped.
 
     Args:
@@ -48,16 +37,22 @@ class Drive:
     """
 
     def __init__(
-        self, world: JointWorld, trajectory: Trajectory, *, stall_lag: float, stop: Stop | None, watch: Watch | None
+        self,
+        world: ArticulatedWorld,
+        trajectory: Trajectory,
+        *,
+        stall_lag: float,
+        stop: Stop | None,
+        watch: Watch | None,
     ) -> None:
-        self._world = world
+        self._world, self._engine = world, world.engine
         self._trajectory: JointTrajectory = accepted(world, trajectory)
-        self._period = world.period
+        self._period = world.engine.period
         self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
-        self._touches = Touches(world)
+        self._touches = TouchLog(world)
         window = max(1, round(FORCE_WINDOW / self._period))
         self._forces = deque([0.0] * window, maxlen=window)
-        self._limiter = Limiter(world, self._trajectory.force_limit)
+        self._limiter = ForceLimiter(world.engine, world.arm, self._trajectory.force_limit)
         self._tick, self._pressed, self._next_look = 0, 0, 0.0
         self._force = self._lag = 0.0
         self._stalled, self._settled = False, True
@@ -72,12 +67,12 @@ class Drive:
         self._world.refuse_divergence()
         self._world.parked = False
         self._look(always=True)
-        with self._world.running():
+        with self._engine.running():
             self._follow()
             followed = self._tick * self._period
             self._limiter.release()
             if self._ended:
-                self._yield()
+                self._comply()
             if settle is not None:
                 self._settle(settle)
             self._world.survey()
@@ -90,15 +85,15 @@ class Drive:
 
     def _follow(self) -> None:
         """Tell the joints where to be, step by step, until something ends it."""
-        told = commands(self._world, self._trajectory, self._period)
-        phase, tell, advance = None, self._world.tell, self._advance
+        told = commands(self._world, self._trajectory)
+        phase, command, advance = None, self._engine.command, self._advance
         for control, now, (x, y) in zip(told.controls, told.phases, told.tips.tolist(), strict=True):
             if now is not phase:
                 phase = now
                 self._touches.forget_phase()
-            tell(control)
+            command(control)
             if self._pressed and self._limiter.heed(self._forces[-1], touched=any(self._forces)):
-                self._world.comply()
+                self._engine.comply()
             tip_x, tip_y = advance()
             lag = math.hypot(tip_x - x, tip_y - y)
             if lag > self._lag:
@@ -106,12 +101,12 @@ class Drive:
             if self._stalled or self._cause is not None:
                 self._stalled = self._stalled and self._cause is None
                 return
-        self._world.hold_joints(self._trajectory.positions[-1])
+        self._world.stand_still(self._trajectory.positions[-1])
 
     def _advance(self) -> tuple[float, float]:
         """One control step, and where the fingertip then is, x and y (m). The hot path."""
         world = self._world
-        tip_x, tip_y, touching, force = world.advance()
+        tip_x, tip_y, touching, force = self._engine.advance()
         self._tick = tick = self._tick + 1
         if touching or self._pressed or world.held is not None:
             self._feel(touching, force)
@@ -141,22 +136,17 @@ class Drive:
 
     def _reason(self, stop: Stop) -> StopReason | None:
         """Why to end early now, if there is a reason."""
-        for _, _, name, wall in self._touches.news():
-            if (wall and stop.wall) or name in stop.bodies:
-                return StopReason(StopCause.WALL if wall else StopCause.CONTACT, name)
-        if stop.force is not None and self._force > stop.force:
-            return StopReason(StopCause.FORCE, force=self._force)
-        return None
+        return touch_reason(stop, self._touches.news()) or force_reason(stop, self._force)
 
-    def _yield(self) -> None:
+    def _comply(self) -> None:
         """Let what presses on the arm push it back, and stand where it then is."""
-        least, most = (round(time / self._period) for time in (YIELDING, LONGEST_YIELDING))
+        least, most = (round(time / self._period) for time in (COMPLYING, LONGEST_COMPLYING))
         for tick in range(most):
-            if tick >= least and self._forces[-1] <= YIELDED:
+            if tick >= least and self._forces[-1] <= COMPLIED:
                 break
-            self._world.comply()
+            self._engine.comply()
             self._advance()
-        self._world.hold_joints(self._world.joints)
+        self._world.stand_still(self._engine.arm().joints)
 
     def _settle(self, settle: Settle) -> None:
         """Wait until everything has been calm for long enough."""
@@ -177,10 +167,14 @@ class Drive:
         self._next_look = (math.floor(time / watch.period + 1e-9) + 1) * watch.period
 
     def _motion(self, followed: float) -> Motion:
+        contacts, walls = (
+            tuple(first_contacts(self._touches.found, self._trajectory.gripper, walls=walls, delay=self._period / 2.0))
+            for walls in (False, True)
+        )
         return Motion(
             duration=self._tick * self._period,
-            contacts=tuple(self._contacts(walls=False)),
-            wall_contacts=tuple(self._contacts(walls=True)),
+            contacts=contacts,
+            wall_contacts=walls,
             largest_force=self._force,
             stalled=self._stalled,
             stopped=self._cause,
@@ -188,12 +182,3 @@ class Drive:
             settled=self._settled,
             followed=followed,
         )
-
-    def _contacts(self, *, walls: bool) -> Iterator[Contact]:
-        """The first contact of each part with each body in each phase."""
-        seen = set()
-        for time, part, body, wall in self._touches.found:
-            phase = self._trajectory.gripper.phase_at(time - self._period / 2.0)
-            if wall is walls and (part, body, phase) not in seen:
-                seen.add((part, body, phase))
-                yield Contact(time, body, phase, part)

@@ -1,29 +1,31 @@
-"""A world in space whose arm is moved by its joints: what every engine of the kind has in common.
+"""A world whose arm is moved by its joints: the bookkeeping between an engine and what a State says.
 
-An engine knows bodies and joints. What it does not know is kept here: what has spilled, what is held, whether the arm
-still stands at home, and how all that and the engine's numbers make up a ``State``.
+What has spilled, what is held and whether the arm is parked is kept here, once for all engines.
 """
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from phframe.backends.articulated.engine import JointEngine, ObjectReading, Placement
+from phframe.backends.contract import TOP_SPEED
 from phframe.core import (
+    ArmError,
     ArmModel,
     ArmState,
     BasePose,
     Condition,
     FloatArray,
+    Floats,
     InputError,
     Scene,
     SimulationDivergedError,
     State,
+    Value,
     compose,
     condition_of,
     inverse,
@@ -31,170 +33,67 @@ from phframe.core import (
     refuse_foreign,
 )
 
-CONTROL_PERIOD = 0.004
-"""Between commands to the joints, and between looks at what the arm touches (s)."""
-TOP_SPEED = 20.0
-"""Anything faster (m/s) is not physics any more."""
 
-Pair = tuple[int, int]
-"""A part of the arm and what it touches, by the engine's numbers."""
-Vector = tuple[float, float, float]
-Progress = tuple[float, float, float, float]
-"""After a control step: x and y of the fingertip (m), number of contacts of the arm, net force of those on it (N)."""
+@dataclass(frozen=True, slots=True, eq=False)
+class ArticulatedSnapshot(Value):
+    """A world caught in motion, for planners that steer at control level.
+
+    Attributes:
+        state: Poses, conditions, what is held, the arm.
+        memory: The engine's own account of speeds and whatever else its next step depends on ``(m,)``.
+    """
+
+    state: State
+    memory: Floats
+
+    def __post_init__(self) -> None:
+        self._freeze("memory")
 
 
-class JointWorld(ABC):
+@final
+class ArticulatedWorld:
     """A world at some moment.
 
     Args:
         scene: What is in it.
         arm: In it.
         base_pose: Of the arm.
-        step: The engine's time step (s).
+        engine: That moves it.
 
     Attributes:
-        step: The engine's time step (s).
-        substeps: Steps in a control step.
-        period: Duration of a control step (s).
-        delay: How old the fingertip's place is that ``advance`` tells (s).
-        spilled: Last pose seen, by row of the object.
+        spilled: Last pose seen ``(7,)``, by row of the object.
         held: Row of the object in the hand.
         parked: The arm stands at home and has not been used yet.
     """
 
-    engine: ClassVar[str]
-    """The backend's name, for messages."""
-    delay: float = 0.0
-
-    def __init__(self, scene: Scene, arm: ArmModel[Any], base_pose: BasePose, step: float) -> None:
-        self.step, self.substeps = step, max(1, round(CONTROL_PERIOD / step))
-        self.period = self.substeps * step
-        self.scene, self.arm, self.base_pose = scene, arm, base_pose
+    def __init__(self, scene: Scene, arm: ArmModel[Any], base_pose: BasePose, engine: JointEngine) -> None:
+        self.scene, self.arm, self.base_pose, self.engine = scene, arm, base_pose, engine
         self.spilled: dict[int, FloatArray] = {}
         self.held: int | None = None
         self.parked = True
         self._closed = np.array([joint.lower for joint in arm.fingers.joints])
         self._least = arm.shape.min_opening
-
-    # What an engine tells.
-
-    @property
-    @abstractmethod
-    def joints(self) -> FloatArray:
-        """Joint values ``(dof,)``."""
+        self._radii = scene.radii
+        # A velocity of which no component is greater than this is below TOP_SPEED, its rim's part included.
+        self._slow = TOP_SPEED / (np.sqrt(3.0) * (1.0 + float(self._radii.max(initial=0.0))))
 
     @property
-    @abstractmethod
-    def fingers(self) -> FloatArray:
-        """What the two finger joints are ``(2,)``."""
+    def squeeze(self) -> float:
+        """How much closer the fingers are told to be than they are (m)."""
+        arm = self.engine.arm()
+        return self._opening(arm.fingers) - self._opening(arm.commanded_fingers)
 
-    @property
-    @abstractmethod
-    def told_fingers(self) -> FloatArray:
-        """What the two finger joints are told to be ``(2,)``."""
-
-    @property
-    @abstractmethod
-    def gripper(self) -> FloatArray:
-        """Fingertip pose ``(3,)`` in the shelf frame."""
-
-    @property
-    @abstractmethod
-    def object_poses(self) -> FloatArray:
-        """Pose of every object ``(n, 7)``, anything for those that have spilled."""
-
-    @property
-    @abstractmethod
-    def velocities(self) -> FloatArray:
-        """Velocity of every object ``(n, 6)``, straight (m/s) and turning (rad/s), anything for those that have spilled."""
-
-    @property
-    @abstractmethod
-    def inertias(self) -> FloatArray:
-        """What each of the arm's joints has to accelerate ``(dof,)`` (kg or kg m^2)."""
-
-    @property
-    @abstractmethod
-    def given(self) -> FloatArray:
-        """Magnitude of the force or torque that each of the arm's joints gave in the last step ``(dof,)``."""
-
-    @property
-    @abstractmethod
-    def trouble(self) -> str | None:
-        """Why the engine's numbers are no longer physical, besides objects that are too fast, or None."""
-
-    @abstractmethod
-    def touching(self) -> Iterator[Pair]:
-        """The arm's contacts with anything else."""
-
-    @abstractmethod
-    def names(self, pair: Pair) -> tuple[str, str, bool]:
-        """The part of the arm, what it touches, whether that is a wall."""
-
-    @abstractmethod
-    def pushes(self) -> Iterator[tuple[int, int, Vector]]:
-        """Of every contact of a finger with an object: the object's row, the finger (+1 or -1), its direction."""
-
-    # What an engine does.
-
-    @abstractmethod
-    def controls(self, positions: FloatArray, velocities: FloatArray, fingers: FloatArray) -> list[Any]:
-        """What ``tell`` is given at each of ``k`` control steps, for joints and speeds ``(k, dof)``, fingers ``(k, 2)``."""
-
-    @abstractmethod
-    def tell(self, control: Any) -> None:
-        """Tell arm and fingers where to be, one of ``controls``."""
-
-    @abstractmethod
-    def hold_joints(self, positions: FloatArray) -> None:
-        """Tell the arm to stand still at joint values ``(dof,)``; the fingers go on as told."""
-
-    @abstractmethod
-    def comply(self) -> None:
-        """Ask nothing of the arm but to lose its speed where it is, and to let what presses on it push it back."""
-
-    @abstractmethod
-    def cap(self, efforts: FloatArray) -> None:
-        """Let the arm's joints give no more than this ``(dof,)`` (N or Nm)."""
-
-    @abstractmethod
-    def advance(self) -> Progress:
-        """Let one control step pass."""
-
-    @abstractmethod
-    def _place(self, state: State, joints: FloatArray, fingers: FloatArray, told_fingers: FloatArray) -> None:
-        """Put everything in its place, at rest, without what is in ``spilled``; all objects stand on the whole board."""
-
-    @abstractmethod
-    def _remove(self, row: int) -> None:
-        """Take an object out of the world."""
-
-    @abstractmethod
-    def _stand(self, row: int, *, on_edge: bool) -> None:
-        """Let an object stand on a board that ends at the mouth, or on one that does not."""
-
-    @contextmanager
-    def running(self) -> Iterator[None]:
-        """What an engine needs around a run."""
-        yield
-
-    # What follows from that.
-
-    @property
-    def opening(self) -> float:
-        """Distance between the fingers (m)."""
-        return self._least + float((self.fingers - self._closed).sum())
-
-    @property
-    def command(self) -> float:
-        """The distance between the fingers that they are told to have (m)."""
-        return self._least + float((self.told_fingers - self._closed).sum())
+    def _opening(self, fingers: FloatArray) -> float:
+        return self._least + float((fingers - self._closed).sum())
 
     @property
     def speeds(self) -> FloatArray:
         """Speed of every object ``(n,)``, that of its rim included (m/s); 0 of what has spilled."""
-        velocity = self.velocities
-        speeds = np.linalg.norm(velocity[:, :3], axis=1) + np.linalg.norm(velocity[:, 3:], axis=1) * self.scene.radii
+        return self._speeds(self.engine.objects().velocities)
+
+    def _speeds(self, velocities: FloatArray) -> FloatArray:
+        straight, turning = np.linalg.norm(velocities[:, :3], axis=1), np.linalg.norm(velocities[:, 3:], axis=1)
+        speeds = straight + turning * self._radii
         speeds[list(self.spilled)] = 0.0
         return np.asarray(speeds)
 
@@ -215,17 +114,33 @@ class JointWorld(ABC):
         opening, told = (shape.min_opening, shape.min_opening) if arm is None else (arm.opening, arm.commanded_opening)
         self.held = None
         self.spilled = {int(row): np.array(state.poses[row]) for row in np.flatnonzero(~state.on_board)}
-        self._place(state, joints, self.finger_values(opening), self.finger_values(told))
+        fingers, told_fingers = self.finger_values(opening), self.finger_values(told)
+        self.engine.place(Placement(state.poses, frozenset(self.spilled), joints, fingers, told_fingers))
         self.hold(None if state.held is None else self.scene.index(state.held))
         self.parked = arm is None
 
+    def snapshot(self) -> ArticulatedSnapshot:
+        """The world as it is now, moving or not."""
+        state = self.read_state()
+        return ArticulatedSnapshot(state, self.engine.memory())
+
+    def put_back(self, snapshot: ArticulatedSnapshot) -> None:
+        """Make the world be what it was when a snapshot was taken, as far as the engine can."""
+        self.restore(snapshot.state)
+        self.engine.recall(snapshot.memory)
+
     def hold(self, row: int | None) -> None:
-        """Note what is held; what is held stands on a board that ends at the mouth, all else on one that does not."""
+        """Note what is held."""
         if self.held is not None and self.held not in self.spilled:
-            self._stand(self.held, on_edge=False)
+            self.engine.set_held(self.held, held=False)
         if row is not None:
-            self._stand(row, on_edge=True)
+            self.engine.set_held(row, held=True)
         self.held = row
+
+    def stand_still(self, positions: FloatArray) -> None:
+        """Tell the arm to stand still at joint values ``(dof,)``; the fingers go on as told."""
+        engine, fingers = self.engine, self.engine.arm().commanded_fingers
+        engine.command(engine.controls(positions[None], np.zeros((1, len(positions))), fingers[None])[0])
 
     def survey(self) -> None:
         """Look at everything: refuse what is no physics any more, take out what has left the board.
@@ -233,16 +148,19 @@ class JointWorld(ABC):
         Raises:
             SimulationDivergedError: If the engine's numbers are no longer physical.
         """
-        self.refuse_divergence()
-        self.spill(self.object_poses)
+        objects = self.engine.objects()
+        self._refuse_divergence(objects)
+        x, _, z, *_ = objects.poses.min(axis=0, initial=0.0).tolist()
+        if x < 0.0 or z < 0.0:
+            self._spill(objects.poses)
 
-    def spill(self, object_poses: FloatArray) -> None:
+    def _spill(self, poses: FloatArray) -> None:
         """Take out what has left the board, at poses ``(n, 7)``; the pose it was last seen at is kept."""
-        for row in np.flatnonzero((object_poses[:, 0] < 0.0) | (object_poses[:, 2] < 0.0)).tolist():
+        for row in np.flatnonzero((poses[:, 0] < 0.0) | (poses[:, 2] < 0.0)).tolist():
             held = row == self.held
-            if row not in self.spilled and condition_of(object_poses[row], held=held) is Condition.SPILLED:
-                self.spilled[row] = np.array(object_poses[row])
-                self._remove(row)
+            if row not in self.spilled and condition_of(poses[row], held=held) is Condition.SPILLED:
+                self.spilled[row] = np.array(poses[row])
+                self.engine.remove(row)
 
     def refuse_divergence(self) -> None:
         """Raise where a body is nowhere or faster than physics allows, or the engine itself complains.
@@ -250,19 +168,25 @@ class JointWorld(ABC):
         Raises:
             SimulationDivergedError: With the object and its speed, or the complaint.
         """
-        self._refuse(self.speeds)
+        self._refuse_divergence(self.engine.objects())
 
-    def _refuse(self, speeds: FloatArray) -> None:
-        if not (speeds < TOP_SPEED).all():  # nothing that is not a number is less
-            row = int(np.flatnonzero(~(speeds < TOP_SPEED))[0])
+    def _refuse_divergence(self, objects: ObjectReading) -> None:
+        velocities = objects.velocities
+        if (
+            not max(velocities.max(initial=0.0), -velocities.min(initial=0.0)) < self._slow
+        ):  # nothing that is not a number is less
+            self._refuse_fast(self._speeds(velocities))
+        if (trouble := self.engine.trouble()) is not None:
+            raise SimulationDivergedError(f"the simulation diverged: {trouble}")
+
+    def _refuse_fast(self, speeds: FloatArray) -> None:
+        for row in np.flatnonzero(~(speeds < TOP_SPEED)).tolist():
             what = f"{self.scene.ids[row]!r} moves at {speeds[row]:.3g} m/s"
             raise SimulationDivergedError(f"the simulation diverged: {what}; try a smaller backend step")
-        if (trouble := self.trouble) is not None:
-            raise SimulationDivergedError(f"the simulation diverged: {trouble}")
 
     def read_state(self) -> State:
         """The world as it is now."""
-        poses = np.array(self.object_poses)
+        poses = np.array(self.engine.objects().poses)
         conditions = [condition_of(pose, held=row == self.held) for row, pose in enumerate(poses)]
         for row, pose in self.spilled.items():
             poses[row], conditions[row] = pose, Condition.SPILLED
@@ -270,7 +194,8 @@ class JointWorld(ABC):
         return State(poses, tuple(conditions), held, None if self.parked else self._arm_state())
 
     def _arm_state(self) -> ArmState:
-        return ArmState(self.gripper, self.opening, self.command, self.joints)
+        arm = self.engine.arm()
+        return ArmState(arm.gripper, self._opening(arm.fingers), self._opening(arm.commanded_fingers), arm.joints)
 
     def _joints_of(self, arm: ArmState | None) -> FloatArray:
         if arm is None:
@@ -279,9 +204,17 @@ class JointWorld(ABC):
             if arm.joints.shape != (len(self.arm.joints),):
                 raise InputError(f"a state's arm has {len(arm.joints)} joints, this one {len(self.arm.joints)}")
             return arm.joints
-        x, y, yaw = (float(value) for value in arm.gripper)
+        return self.joints_at(arm.gripper, None)
+
+    def joints_at(self, gripper: FloatArray, seed: FloatArray | None) -> FloatArray:
+        """Joint values ``(dof,)``, near others, for a fingertip pose ``(3,)`` in the shelf frame.
+
+        Raises:
+            ArmError: If there are none.
+        """
+        x, y, yaw = gripper.tolist()
         wanted = planar_pose(x, y, self.arm.shape.height, yaw)
-        found = self.arm.inverse(compose(inverse(self.base_pose.pose), wanted))
+        found = self.arm.inverse(compose(inverse(self.base_pose.pose), wanted), seed)
         if found is None:
-            raise InputError(f"the arm cannot have its fingertip at x {x:.3f} m, y {y:.3f} m, yaw {yaw:.2f} rad")
+            raise ArmError(f"the arm cannot have its fingertip at x {x:.3f} m, y {y:.3f} m, yaw {yaw:.2f} rad")
         return found

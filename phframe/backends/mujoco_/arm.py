@@ -9,9 +9,15 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from phframe.backends.mujoco_.shelf import ARM_KIND, ARM_MEETS, CONTACT
-from phframe.core import ArmModel, FloatArray, IncompatibleError, Joint
+from phframe.backends.mujoco_.options import MujocoOptions
+from phframe.backends.mujoco_.shelf import ARM_KIND, ARM_MEETS
+from phframe.core import ArmModel, FloatArray, IncompatibleError, InputError, Joint
+from phframe.urdf.convex_hull import ConvexHull
+from phframe.urdf.reader import read_robot
+from phframe.urdf.solids import rotation
+from phframe.urdf.writer import robot_urdf
 
 PREFIX = "arm/"
 """Of the names of all that belongs to the arm."""
@@ -38,26 +44,21 @@ class Servo:
     effort: float
 
 
-def arm_spec(arm: ArmModel[Any], *, give: float, finger_give: float, friction: Sequence[float]) -> Any:
+def arm_spec(arm: ArmModel[Any], options: MujocoOptions) -> Any:
     """The arm as a MuJoCo spec, with an actuator for every joint: first those of ``arm.joints``, then the two fingers.
-
-    Args:
-        arm: The arm.
-        give: Error at which a joint gives its whole effort (rad or m).
-        finger_give: The same of a finger (m).
-        friction: Sliding, turning and rolling, against everything.
 
     Raises:
         IncompatibleError: If the URDF does not load, or lacks a joint or link that the arm names.
     """
     spec = _load(arm)
     _check_names(arm, spec)
+    friction = options.triple(options.arm_friction)
     for body in spec.bodies:
         body.gravcomp = 1.0
     for geom in spec.geoms:
         geom.contype, geom.conaffinity = ARM_KIND, ARM_MEETS
-        geom.priority, geom.friction, geom.condim, geom.solref = 2, list(friction), 4, CONTACT
-    for servo in _servos(arm, spec, give, finger_give):
+        geom.priority, geom.friction, geom.condim, geom.solref = 2, friction, 4, options.contact
+    for servo in _servos(arm, spec, options):
         _add_servo(spec, servo)
     for mimic in spec.equalities:
         mimic.solref, mimic.solimp = [0.004, 1.0], [0.99, 0.999, 0.0001, 0.5, 2.0]
@@ -65,14 +66,32 @@ def arm_spec(arm: ArmModel[Any], *, give: float, finger_give: float, friction: S
 
 
 def _load(arm: ArmModel[Any]) -> Any:
+    """The robot without visuals; convex hulls are put into the model itself, which then needs no files."""
     try:
-        robot = ET.fromstring(arm.urdf())
+        robot = read_robot(arm.urdf())
+        root = ET.fromstring(robot_urdf(robot.without_hulls()))
         # MuJoCo would merge links that are fixed to one another, and lose the fingertip.
-        ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", fusestatic="false", discardvisual="true")
-        return mujoco.MjSpec.from_string(ET.tostring(robot, encoding="unicode"))
-    except (ET.ParseError, ValueError) as error:
+        ET.SubElement(ET.SubElement(root, "mujoco"), "compiler", fusestatic="false")
+        spec = mujoco.MjSpec.from_string(ET.tostring(root, encoding="unicode"))
+    except (InputError, ValueError) as error:
         why = " ".join(str(error).split())
         raise IncompatibleError(f"MuJoCo cannot load the URDF of {type(arm).__name__}: {why}") from None
+    for number, (link, hull) in enumerate(robot.hulls):
+        _add_hull(spec, number, link, hull)
+    return spec
+
+
+def _add_hull(spec: Any, number: int, link: str, hull: ConvexHull) -> None:
+    name = f"hull {number}"
+    spec.add_mesh(name=name, uservert=hull.vertices.ravel(), userface=hull.triangles.ravel())
+    x, y, z, w = Rotation.from_matrix(rotation(hull.rpy)).as_quat()
+    spec.body(link).add_geom(
+        name=f"{hull.name or f'{link} {hull.part or number}'} collision",
+        type=mujoco.mjtGeom.mjGEOM_MESH,
+        meshname=name,
+        pos=hull.at,
+        quat=(w, x, y, z),
+    )
 
 
 def _check_names(arm: ArmModel[Any], spec: Any) -> None:
@@ -84,15 +103,20 @@ def _check_names(arm: ArmModel[Any], spec: Any) -> None:
         raise IncompatibleError(f"the URDF of {type(arm).__name__} has no joint or link {', '.join(lacking)}")
 
 
-def _servos(arm: ArmModel[Any], spec: Any, give: float, finger_give: float) -> list[Servo]:
+def _servos(arm: ArmModel[Any], spec: Any, options: MujocoOptions) -> list[Servo]:
     """A critically damped servo for each joint."""
     model = spec.compile()
-    pairs: list[tuple[Joint, float]] = [*((joint, give) for joint in arm.joints)]
-    pairs += [(joint, finger_give) for joint in arm.fingers.joints]
+    pairs: list[tuple[Joint, float]] = [*((joint, options.joint_give) for joint in arm.joints)]
+    pairs += [(joint, options.finger_give) for joint in arm.fingers.joints]
     return [_servo(joint, error, float(model.dof_M0[model.joint(joint.name).dofadr[0]])) for joint, error in pairs]
 
 
 def _servo(joint: Joint, give: float, inertia: float) -> Servo:
+    """A position servo tau = k (q* - q) - d qd, critically damped: d = 2 sqrt(k (M + rotor)).
+
+    Its natural frequency sqrt(k / (M + rotor)) is held below ``FASTEST`` by the rotor's inertia, so that steps resolve it
+    (Siciliano et al., Robotics: Modelling, Planning and Control, 2009, section 8.3: independent joint control).
+    """
     stiffness = joint.effort / give
     rotor = max(0.0, stiffness / FASTEST**2 - inertia)
     damping = 2.0 * float(np.sqrt(stiffness * (inertia + rotor)))

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from phframe.backends.mujoco_.arm import PREFIX, arm_spec
-from phframe.backends.mujoco_.physics import MujocoOptions
+from phframe.backends.mujoco_.options import MujocoOptions
 from phframe.core import ArmModel, BasePose, IncompatibleError
 
 HOME = "home"
@@ -26,9 +26,7 @@ def with_arm(mjcf: str, arm: ArmModel[Any], base_pose: BasePose) -> str:
     Raises:
         IncompatibleError: If MuJoCo cannot load the arm.
     """
-    defaults = MujocoOptions()
-    friction = [defaults.arm_friction, defaults.turning_friction, defaults.rolling_friction]
-    robot = arm_spec(arm, give=defaults.joint_give, finger_give=defaults.finger_give, friction=friction)
+    robot = arm_spec(arm, MujocoOptions())
     spec = mujoco.MjSpec.from_string(mjcf)
     frame = spec.worldbody.add_frame(pos=base_pose.pose[:3], quat=base_pose.pose[3:])
     spec.attach(robot, prefix=PREFIX, frame=frame)

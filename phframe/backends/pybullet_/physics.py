@@ -1,10 +1,10 @@
 """Physics in space with PyBullet: board, walls, ceiling, objects that may tip, roll and fall, an arm moved by its joints.
 
 The arm is its own URDF. Every joint has a motor with the joint's real speed and effort: a constraint, rigid up to that
-effort, so that arm and walls are given covers that yield where they touch. Joints carry the arm's weight besides that.
-The arm is never put anywhere by hand while it can touch something, and holds what it holds by friction alone. A force
-on it above the trajectory's limit stalls it; it then complies until nothing presses on it. An object that leaves the
-board is spilled, and is taken out of the world.
+effort, so that the collision geometry of arm and walls is made to give where it is touched. Joints carry the arm's weight
+besides that. The arm is never put anywhere by hand while it can touch something, and holds what it holds by friction
+alone. A force on it above the trajectory's limit stalls it; it then complies until nothing presses on it. An object that
+leaves the board is spilled, and is taken out of the world.
 
 With a step of 2 ms and 50 iterations, none of the objects of the published scenes moves more than 0.02 mm in 5 s.
 
@@ -29,54 +29,13 @@ remembers of its contacts is lost.
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import Annotated
-
-from pydantic import Field
-
-from phframe.backends.articulated.physics import JointOptions, JointPhysics
-from phframe.backends.pybullet_.bodies import Surfaces
-from phframe.backends.pybullet_.snapshot import Snapshot, put_back, take_snapshot
-from phframe.backends.pybullet_.urdf import PreparedUrdf, prepared_urdf
-from phframe.backends.pybullet_.world import Engine, World
+from phframe.backends.articulated import ArticulatedPhysics
+from phframe.backends.pybullet_.engine import PybulletEngine
+from phframe.backends.pybullet_.options import PybulletOptions
 
 
-class PybulletOptions(JointOptions):
-    """Options of the PyBullet backend, besides those that all engines of joints have.
-
-    Attributes:
-        iterations: Of the contact solver in a step.
-        joint_gain: Speed of a joint of the arm per error (1/s).
-    """
-
-    iterations: Annotated[int, Field(ge=10, le=1000)] = 50
-    joint_gain: Annotated[float, Field(gt=0.0, le=500.0)] = 60.0
-
-
-class PybulletPhysics(JointPhysics[PybulletOptions, World, Snapshot]):
+class PybulletPhysics(ArticulatedPhysics[PybulletOptions]):
     """PyBullet 3 behind the Physics interface."""
 
     options_type = PybulletOptions
-
-    @cached_property
-    def urdf(self) -> PreparedUrdf:
-        """The arm's URDF, made fit when it is first needed."""
-        return prepared_urdf(self.arm)
-
-    def close(self) -> None:
-        """Give the engine's client back."""
-        if self._world is not None:
-            self._world.close()
-        super().close()
-
-    def _new_world(self) -> World:
-        o = self.options
-        surfaces = Surfaces(o.object_friction, o.arm_friction, o.turning_friction, o.rolling_friction)
-        engine = Engine(o.step, o.iterations, o.joint_gain, surfaces, o.sleep)
-        return World(self.scene, self.arm, self.base_pose, self.urdf, engine)
-
-    def _take(self, world: World) -> Snapshot:
-        return take_snapshot(world)
-
-    def _put_back(self, world: World, snapshot: Snapshot) -> None:
-        put_back(world, snapshot)
+    engine_type = PybulletEngine

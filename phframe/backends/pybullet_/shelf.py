@@ -1,8 +1,8 @@
 """A shelf and what stands on it as bodies of PyBullet.
 
 Board and walls are boxes for the arm and planes for the objects: on planes, cylinders stand perfectly still and are
-quicker by far to simulate. What is held outside must not find a plane under it: while an object is held, it meets a
-box that ends at the mouth, the edge.
+quicker by far to simulate. Planes have no end, and what is held outside must find none there, neither under it nor beside
+it: while an object is held, it meets boxes that end at the mouth, a board, which is called the edge, and side walls.
 """
 
 from __future__ import annotations
@@ -10,9 +10,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from phframe.backends.pybullet_.bodies import ARM, BOARDS, BOX, OBJECT, OBJECT_MEETS, PLANE, Maker, Surfaces
+from phframe.backends.pybullet_.bodies import (
+    ARM,
+    BOARDS,
+    BOX,
+    HELD,
+    HELD_MEETS,
+    OBJECT,
+    OBJECT_MEETS,
+    PLANE,
+    BodyMaker,
+)
+from phframe.backends.pybullet_.options import PybulletOptions
 from phframe.backends.pybullet_.output_capture import bullet
-from phframe.core import Scene, Shelf, State, coulomb_with_board
+from phframe.core import FloatArray, Scene, Shelf, coulomb_with_board
 from phframe.geometry.slabs import WALLS, Vector, slabs
 
 LEVEL: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
@@ -40,18 +51,27 @@ class Bodies:
     rows: Mapping[int, int]
 
 
-def build_shelf(client: int, scene: Scene, state: State, surfaces: Surfaces) -> Bodies:
-    """Make the shelf and the objects that have not spilled."""
-    maker = Maker(client, surfaces)
+def build_shelf(
+    client: int, scene: Scene, poses: FloatArray, spilled: frozenset[int], options: PybulletOptions
+) -> Bodies:
+    """Make the shelf, and the objects that have not spilled at poses ``(n, 7)``.
+
+    Raises:
+        UnknownShapeError: If PyBullet has no primitive for the shape of an object.
+    """
+    maker = BodyMaker(client, options)
     boxes = _boxes(maker, scene.shelf)
     edge = maker.box(slabs(scene.shelf)[0], BOARDS, 0)
     _add_planes(maker, scene.shelf)
     frictions = [coulomb_with_board(scene, item) for item in scene.objects]
     boards = {friction: maker.plane(*LEVEL, friction, BOARDS, 0) for friction in dict.fromkeys(frictions)}
-    there = state.on_board.nonzero()[0].tolist()
-    objects = {row: maker.cylinder(scene.objects[row], state.poses[row]) for row in there}
+    there = [row for row in range(len(scene.objects)) if row not in spilled]
+    objects = {row: maker.item(scene.objects[row], poses[row]) for row in there}
     for row, body in objects.items():
-        stand(client, body, boards[frictions[row]], stands=True)
+        _let_stand(client, body, boards[frictions[row]], stands=True)
+        _let_meet(client, body, held=False)
+    for wall in slabs(scene.shelf)[1:]:
+        maker.wall(wall, scene.shelf.wall_friction)
     return Bodies(
         objects,
         tuple(boards[friction] for friction in frictions),
@@ -62,24 +82,31 @@ def build_shelf(client: int, scene: Scene, state: State, surfaces: Surfaces) -> 
     )
 
 
-def stand(client: int, body: int, board: int, *, stands: bool) -> None:
-    """Let an object meet a board, or not."""
+def set_held(client: int, scene: Scene, bodies: Bodies, row: int, options: PybulletOptions, *, held: bool) -> None:
+    """Let an object meet boxes, which end at the mouth, as it must while it is held, or planes."""
+    body, friction = bodies.objects[row], coulomb_with_board(scene, scene.objects[row])
+    bullet.changeDynamics(bodies.edge, -1, **options.against_objects(friction), physicsClientId=client)
+    for board, stands in ((bodies.edge, held), (bodies.boards[row], not held)):
+        _let_stand(client, body, board, stands=stands)
+        _let_meet(client, body, held=held)
+
+
+def _let_stand(client: int, body: int, board: int, *, stands: bool) -> None:
     bullet.setCollisionFilterPair(body, board, -1, -1, int(stands), physicsClientId=client)
+
+
+def _let_meet(client: int, body: int, *, held: bool) -> None:
     # Bullet looks at who may meet whom only when their boxes begin to overlap, or here:
-    bullet.setCollisionFilterGroupMask(body, -1, OBJECT, OBJECT_MEETS, physicsClientId=client)
+    kind, meets = (HELD, HELD_MEETS) if held else (OBJECT, OBJECT_MEETS)
+    bullet.setCollisionFilterGroupMask(body, -1, kind, meets, physicsClientId=client)
 
 
-def set_edge(client: int, edge: int, friction: float, surfaces: Surfaces) -> None:
-    """Give the board that ends at the mouth the coefficient of what is about to stand on it."""
-    bullet.changeDynamics(edge, -1, **surfaces.against_objects(friction), physicsClientId=client)
-
-
-def _boxes(maker: Maker, shelf: Shelf) -> dict[int, str]:
+def _boxes(maker: BodyMaker, shelf: Shelf) -> dict[int, str]:
     """What the arm meets, and what it is called."""
     return {maker.box(slab, BOX, ARM): slab.name for slab in slabs(shelf)}
 
 
-def _add_planes(maker: Maker, shelf: Shelf) -> None:
+def _add_planes(maker: BodyMaker, shelf: Shelf) -> None:
     """Walls and ceiling as objects meet them."""
     for point, normal in _planes(shelf):
         maker.soften(maker.plane(point, normal, shelf.wall_friction, PLANE, OBJECT))

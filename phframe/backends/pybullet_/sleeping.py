@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import math
 
-from phframe.backends.pybullet_.bodies import Surfaces
+import numpy as np
+
+from phframe.backends.articulated import ObjectReading
+from phframe.backends.pybullet_.options import PybulletOptions
 from phframe.backends.pybullet_.output_capture import bullet
 from phframe.backends.pybullet_.shelf import Bodies
 from phframe.core import FloatArray, Scene, coulomb_with_board
@@ -18,6 +21,8 @@ CALM = 1e-3
 """What is slower than this (m/s) ..."""
 LONG = 3
 """... at so many looks one after the other is at rest."""
+LOOK = 10
+"""Control steps between looks."""
 
 LEANING = (1.0 - math.cos(TOPPLED_TILT)) / 2.0
 """What has toppled has more than this in the squares of its quaternion's x and y."""
@@ -30,24 +35,24 @@ class Rest:
         client: PyBullet's.
         scene: What is in it.
         bodies: Where it is.
-        surfaces: Friction.
-        sleep: Whether anything may sleep.
+        options: Of the backend.
     """
 
-    def __init__(self, client: int, scene: Scene, bodies: Bodies, surfaces: Surfaces, *, sleep: bool) -> None:
-        self._client, self._scene, self._bodies, self._surfaces = client, scene, bodies, surfaces
-        self._sleep = sleep
+    def __init__(self, client: int, scene: Scene, bodies: Bodies, options: PybulletOptions) -> None:
+        self._client, self._scene, self._bodies, self._options = client, scene, bodies, options
+        self._radii = scene.radii
         self._calm = [0] * len(scene.objects)
         self._rolls: set[int] = set()
-        for body in bodies.objects.values() if sleep else ():
+        for body in bodies.objects.values() if options.sleep else ():
             self._set(body, activationState=bullet.ACTIVATION_STATE_ENABLE_SLEEPING, sleepThreshold=CALM**2)
 
-    def look(self, poses: FloatArray, speeds: FloatArray) -> None:
-        """Let what is at rest sleep and what has toppled roll, at poses ``(n, 7)`` and speeds ``(n,)`` (m/s)."""
-        self.let_roll(poses)
-        if not self._sleep:
+    def look(self, objects: ObjectReading) -> None:
+        """Let what is at rest sleep and what has toppled roll."""
+        self.let_roll(objects.poses)
+        if not self._options.sleep:
             return
-        for row, speed in enumerate(speeds.tolist()):
+        straight, turning = (np.linalg.norm(part, axis=1) for part in np.hsplit(objects.velocities, 2))
+        for row, speed in enumerate((straight + turning * self._radii).tolist()):
             self._calm[row] = calm = self._calm[row] + 1 if speed < CALM else 0
             if calm and calm % LONG == 0 and row in self._bodies.objects:
                 self._set(self._bodies.objects[row], activationState=bullet.ACTIVATION_STATE_SLEEP)
@@ -60,9 +65,9 @@ class Rest:
             if body is not None and row not in self._rolls:
                 self._rolls.add(row)
                 board = coulomb_with_board(self._scene, self._scene.objects[row])
-                own = self._surfaces.own
+                own = self._options.own_friction
                 # Bullet's product is with the other's sliding friction, which has made the board's own.
-                self._set(body, rollingFriction=self._surfaces.rolling * own / board if board else 0.0)
+                self._set(body, rollingFriction=self._options.rolling_friction * own / board if board else 0.0)
 
     def _set(self, body: int, **dynamics: float) -> None:
         bullet.changeDynamics(body, -1, **dynamics, physicsClientId=self._client)

@@ -1,4 +1,9 @@
-"""How an arm comes to rest at the end of a leg: a real one brakes, and what it pushed leaves it while it does."""
+"""The end of a trapezoidal velocity profile: how an arm brakes at the end of a leg, where what it pushed leaves it.
+
+At full speed v for n - b steps and evenly slower for the last b, a leg of n steps is v (n - b / 2) long. With the same
+length d and the braking a = v / b this gives b = n - sqrt(n^2 - 2 d / a) (lengths in m, times in steps; Siciliano et al.,
+Robotics: Modelling, Planning and Control, 2009, section 4.2.1).
+"""
 
 from __future__ import annotations
 

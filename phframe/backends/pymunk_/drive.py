@@ -7,11 +7,20 @@ from collections import deque
 
 import numpy as np
 
+from phframe.backends.contract import START_ANGLE, START_POSITION, first_contacts, force_reason, touch_reason
 from phframe.backends.pymunk_.braking import Pace, pace
 from phframe.backends.pymunk_.fast_forward import free_fraction, is_still, stays_outside
-from phframe.backends.pymunk_.gripper import between_fingers, gripped, hold, place_arm, place_held, release, set_opening
-from phframe.backends.pymunk_.report import motion_of
-from phframe.backends.pymunk_.state import is_calm, read_state, refuse_divergence, spill
+from phframe.backends.pymunk_.gripper import (
+    between_fingers,
+    drag,
+    gripped,
+    hold,
+    place_arm,
+    place_held,
+    release,
+    set_opening,
+)
+from phframe.backends.pymunk_.state import is_calm, read_state, refuse_divergence, survey
 from phframe.backends.pymunk_.world import ShelfSpace, note_contact, overlap
 from phframe.core import (
     FORCE_WINDOW,
@@ -19,27 +28,23 @@ from phframe.core import (
     GripperTrajectory,
     InputError,
     Motion,
-    Phase,
     Settle,
     Stop,
-    StopCause,
     StopReason,
     Watch,
 )
 
-STRETCH = 30
+SURVEY = 30
 """Steps between looks at what has left the board and whether all is still again: 1/8 s at the default step."""
 CALM_CHECK = 6
 """Steps between looks at whether all is at rest."""
-START_POSITION, START_YAW = 2e-3, 1e-2
-"""How far from the arm (m, rad) a trajectory may begin."""
-EASE_SPEED, EASE_STEPS, EASE_CHECK, EASED = 0.05, 60, 4, 1e-5
+COMPLY_SPEED, COMPLY_STEPS, COMPLY_CHECK, COMPLIED = 0.05, 60, 4, 1e-5
 """How fast (m/s), for how many steps, looking how often, and down to which overlap (m) a stalled arm complies."""
 SATURATED = 0.999
 """Fraction of the force limit at which the drive has nothing left to give."""
 
 
-class Drive:
+class PymunkDrive:
     """One run along one trajectory: made, run once and dropped.
 
     Args:
@@ -71,9 +76,9 @@ class Drive:
         self._impulses: deque[float] = deque([0.0] * window, window)
         self._period = None if watch is None else max(1, round(watch.period / step))
         self._full_impulse = trajectory.force_limit * step * SATURATED
-        self.lag = self.force = 0.0
-        self.stalled, self.settled = False, True
-        self.cause: StopReason | None = None
+        self._lag = self._force = 0.0
+        self._stalled, self._settled = False, True
+        self._cause: StopReason | None = None
 
     def run(self, settle: Settle | None) -> Motion:
         """Follow the trajectory, then wait for rest."""
@@ -87,14 +92,14 @@ class Drive:
         if settle is not None:
             self._settle(settle)
         self._look(always=True)
-        return motion_of(self, world, self._trajectory, self._step, followed)
+        return self._motion(followed * self._step)
 
     @property
     def _ended(self) -> bool:
-        return self.stalled or self.cause is not None
+        return self._stalled or self._cause is not None
 
     def _begin(self) -> None:
-        """Put a parked arm where the trajectory begins, and pass over the time in which nothing can happen."""
+        """Put a parked arm where the trajectory begins, and see that the trajectory begins there."""
         world, trajectory = self._world, self._trajectory
         world.tick = 0
         world.touched.clear()
@@ -106,7 +111,7 @@ class Drive:
         self._look(always=True)
 
     def _follow(self, leg: int) -> None:
-        """Drive the carrier along a leg, passing over what is free while all is still."""
+        """Drive the carrier along a leg, fast-forwarding over what is free while all is still."""
         world, trajectory, end = self._world, self._trajectory, self._ticks[leg + 1]
         world.arm.body.each_arbiter(note_contact, world.space, world)
         if trajectory.openings[leg] != trajectory.openings[leg + 1]:
@@ -114,7 +119,7 @@ class Drive:
         pace = self._pace(leg, end - world.tick)
         while world.tick < end and not self._ended:
             if world.tick < end - pace.braking:
-                self._pass_over(leg, end, pace)
+                self._fast_forward(leg, end, pace)
             if world.tick < end:
                 self._drive(leg, end, pace)
         refuse_divergence(world)
@@ -126,23 +131,31 @@ class Drive:
         x, y, _ = self._trajectory.poses[leg + 1] - self._trajectory.poses[leg]
         return pace(math.hypot(x, y), steps, self._acceleration * self._step**2)
 
-    def _pass_over(self, leg: int, end: int, pace: Pace) -> None:
+    def _fast_forward(self, leg: int, end: int, pace: Pace) -> None:
         """Put the arm as far along a leg as nothing can happen, showing it on the way to whoever looks on."""
         world, target = self._world, self._trajectory.poses[leg + 1]
-        if not (world.at_rest or is_still(world)):
-            return
         start = np.array([*world.arm.carrier.position, world.arm.carrier.angle])
+        force = drag(world) if (start != target).any() else 0.0
+        if force >= self._strength or not (world.at_rest or is_still(world)):
+            return
         held = None if world.held is None else np.array(world.items[world.held].body.position)
         begin, work = world.tick, pace.work(end - world.tick)
         fraction = free_fraction(world, start, target)
         free = end - begin if fraction >= 1.0 else min(math.floor(fraction * work), end - begin - pace.braking)
-        self._impulses.extend([0.0] * min(free, len(self._impulses)))
+        self._impulses.extend([force * self._step] * min(free, len(self._impulses)))
+        self._force = max(self._force, force if free > 0 else 0.0)
         for world.tick in self._stops(begin, begin + free):
             way = (target - start) * (1.0 - pace.work(end - world.tick) / work)
             place_arm(world, start + way)
             if held is not None:
                 place_held(world, held + way[:2])
             self._look()
+
+    @property
+    def _strength(self) -> float:
+        """The force (N) from which on the arm stalls or stops."""
+        stop = None if self._stop is None else self._stop.force
+        return min(self._full_impulse / self._step, math.inf if stop is None else stop)
 
     def _stops(self, begin: int, end: int) -> list[int]:
         """The steps, after the first, at which somebody looks on, and the last."""
@@ -156,8 +169,8 @@ class Drive:
         world, left = self._world, end - self._world.tick
         self._set_speed(self._trajectory.poses[leg + 1], pace.steps(left) * self._step)
         world.at_rest = False
-        self._advance(world.tick + min(STRETCH, max(left - pace.braking, 1)))
-        spill(world)
+        self._advance(world.tick + min(SURVEY, max(left - pace.braking, 1)))
+        survey(world)
 
     def _open_or_close(self, leg: int, end: int) -> None:
         """Move the fingers along a leg, until they hold something; before the mouth, where they meet nothing, at once."""
@@ -169,25 +182,37 @@ class Drive:
         if world.held is not None and last <= world.opening:
             world.command = last
             return
-        if world.held is not None:
-            release(world)
-        within_reach = between_fingers(world) if trajectory.phases[leg] is Phase.GRASP else []
+        within_reach = between_fingers(world) if last < first and world.held is None else []
         self._set_speed(trajectory.poses[leg + 1], (end - begin) * self._step)
         world.at_rest = False
         while world.tick < end and not self._ended:
             if (item := gripped(world, within_reach)) is not None:
                 hold(world, item, last)
                 return
-            set_opening(world, first + (last - first) * ((world.tick + 1 - begin) / (end - begin)))
+            self._set_opening(first + (last - first) * ((world.tick + 1 - begin) / (end - begin)))
             self._advance(world.tick + 1)
 
+    def _set_opening(self, told: float) -> None:
+        """Put the fingers where they are told (m); they leave what they squeeze once they are told to be wider than it."""
+        world = self._world
+        if world.held is not None and told <= world.opening:
+            world.command = told
+            return
+        if world.held is not None:
+            release(world)
+        set_opening(world, told)
+
     def _set_speed(self, target: FloatArray, duration: float) -> None:
-        """Make the carrier arrive at a pose in time; the drive need not accelerate the arm itself."""
-        carrier, body = self._world.arm.carrier, self._world.arm.body
+        """Make the carrier arrive at a pose in time; the drive need not accelerate the arm itself, nor what it can carry."""
+        world, carrier, body = self._world, self._world.arm.carrier, self._world.arm.body
         x, y = carrier.position
         carrier.velocity = (float(target[0]) - x) / duration, (float(target[1]) - y) / duration
         carrier.angular_velocity = (float(target[2]) - carrier.angle) / duration
         body.velocity, body.angular_velocity = carrier.velocity, carrier.angular_velocity
+        if world.held is not None and drag(world) * self._step < self._full_impulse:
+            carried = world.items[world.held].body
+            carried.velocity = body.velocity_at_world_point(carried.position)
+            carried.angular_velocity = body.angular_velocity
 
     def _advance(self, end: int) -> None:
         """Step until a number of steps or an end, and keep the mean force of the last 20 ms; the hot path."""
@@ -204,50 +229,49 @@ class Drive:
             if self._period is not None:
                 self._look()
             if len(world.touched) > touched and self._stop is not None:
-                self.cause = self.cause or _touch(self._stop, world)
-            if self.stalled or self.cause is not None:
+                self._cause = self._cause or touch_reason(self._stop, world.touched)
+            if self._stalled or self._cause is not None:
                 return
 
     def _weigh(self, mean: float) -> None:
         """Note the mean impulse of a step; where the drive gives all it has, see whether the arm still follows."""
-        self.force = max(self.force, mean / self._step)
+        self._force = max(self._force, mean / self._step)
         if mean >= self._full_impulse:
             self._note_lag()
-        if self._stop is not None and self._stop.force is not None and mean / self._step > self._stop.force:
-            self.cause = self.cause or StopReason(StopCause.FORCE, force=mean / self._step)
+        self._cause = self._cause or force_reason(self._stop, mean / self._step)
 
     def _note_lag(self) -> None:
         """The drive gives all it has: see how far the arm is behind, and whether that is a stall."""
         arm = self._world.arm
         lag = arm.body.position.get_distance(arm.carrier.position)
-        self.lag = max(self.lag, lag)
-        self.stalled = self.stalled or lag > self._stall_lag
+        self._lag = max(self._lag, lag)
+        self._stalled = self._stalled or lag > self._stall_lag
 
     def _halt(self) -> None:
         """Stand still, and where the arm could not follow, forget where it should have been."""
         arm = self._world.arm
-        if self.stalled:
-            self._ease_off()
-            self.stalled = True
+        if self._stalled:
+            self._comply()
+            self._stalled = True
         arm.carrier.velocity = arm.body.velocity = 0.0, 0.0
         arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
         if self._ended:
             arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
-        spill(self._world)
+        survey(self._world)
 
-    def _ease_off(self) -> None:
-        """Give way, back along where the arm came from, while what it pressed together comes apart again."""
+    def _comply(self) -> None:
+        """Comply: go back along where the arm came from, while what it pressed together comes apart again."""
         arm, world = self._world.arm, self._world
-        self.stalled = False
+        self._stalled = False
         x, y = arm.carrier.velocity
-        slow = EASE_SPEED / max(math.hypot(x, y), EASE_SPEED)
+        slow = COMPLY_SPEED / max(math.hypot(x, y), COMPLY_SPEED)
         arm.carrier.position, arm.carrier.angle = arm.body.position, arm.body.angle
         arm.carrier.angular_velocity = arm.body.angular_velocity = 0.0
-        until = world.tick + EASE_STEPS
+        until = world.tick + COMPLY_STEPS
         while world.tick < until:
-            fraction = slow if overlap(world) > EASED else 0.0
+            fraction = slow if overlap(world) > COMPLIED else 0.0
             arm.carrier.velocity = arm.body.velocity = -fraction * x, -fraction * y
-            self._advance(world.tick + EASE_CHECK)
+            self._advance(world.tick + COMPLY_CHECK)
 
     def _settle(self, settle: Settle) -> None:
         """Wait until everything has been calm for long enough."""
@@ -257,26 +281,34 @@ class Drive:
         while calm * self._step < settle.hold and world.tick < limit and not world.at_rest:
             self._advance(world.tick + CALM_CHECK)
             refuse_divergence(world)
-            spill(world)
+            survey(world)
             calm = calm + CALM_CHECK if is_calm(world, settle.speed) else 0
-        world.at_rest = self.settled = world.at_rest or calm * self._step >= settle.hold
+        world.at_rest = self._settled = world.at_rest or calm * self._step >= settle.hold
 
     def _look(self, *, always: bool = False) -> None:
         """Show the world to whoever looks on, once in every period."""
         if self._watch is not None and (always or self._world.tick % (self._period or 1) == 0):
             self._watch.look(self._world.tick * self._step, read_state(self._world))
 
+    def _motion(self, followed: float) -> Motion:
+        """What happened, of which the trajectory was followed for so long (s)."""
+        touches = [(tick * self._step, part, body, wall) for tick, part, body, wall in self._world.touched]
+        contacts, walls = (tuple(first_contacts(touches, self._trajectory, walls=walls)) for walls in (False, True))
+        return Motion(
+            duration=self._world.tick * self._step,
+            contacts=contacts,
+            wall_contacts=walls,
+            largest_force=self._force,
+            stalled=self._stalled,
+            stopped=self._cause,
+            tracking_error=self._lag,
+            settled=self._settled,
+            followed=followed,
+        )
+
 
 def _refuse_jump(world: ShelfSpace, pose: FloatArray) -> None:
     x, y = world.arm.body.position
     distance, turn = math.hypot(pose[0] - x, pose[1] - y), abs(float(pose[2]) - world.arm.body.angle)
-    if distance > START_POSITION or turn > START_YAW:
+    if distance > START_POSITION or turn > START_ANGLE:
         raise InputError(f"the trajectory begins {distance:.3f} m and {turn:.3f} rad from where the arm is")
-
-
-def _touch(stop: Stop, world: ShelfSpace) -> StopReason | None:
-    """What the arm touches that ends the motion, if anything does."""
-    for _, _, name, wall in world.touched:
-        if (wall and stop.wall) or name in stop.bodies:
-            return StopReason(StopCause.WALL if wall else StopCause.CONTACT, name)
-    return None

@@ -1,6 +1,6 @@
-"""How much of a straight motion can be passed over: while all is still, nothing happens until the arm meets something.
+"""Fast-forward: while all is still, nothing happens on a straight motion until the arm meets something.
 
-What a run passes over costs no steps, and the result is the same: bodies at rest on the board stay where they are.
+What is fast-forwarded costs no steps, and the result is the same: bodies at rest on the board stay where they are.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from phframe.backends.pymunk_.world import Item, ShelfSpace
+from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace
 from phframe.core import FloatArray, rotation_matrix
 
 MARGIN = 1e-3
@@ -41,7 +41,7 @@ def free_fraction(world: ShelfSpace, start: FloatArray, end: FloatArray) -> floa
     return _first_hit((points - start[:2]) @ back, radii, lower, upper, (end[:2] - start[:2]) @ back)
 
 
-def _obstacles(world: ShelfSpace, items: list[Item]) -> tuple[FloatArray, FloatArray]:
+def _obstacles(world: ShelfSpace, items: list[ShelfItem]) -> tuple[FloatArray, FloatArray]:
     """Centres ``(k, 2)`` and radii ``(k,)`` of the objects and, as points, of the walls' corners at the mouth."""
     points = [*(item.body.position for item in items), (0.0, 0.0), (0.0, world.scene.shelf.width)]
     return np.array(points), np.array([item.radius for item in items] + [0.0, 0.0]) + MARGIN

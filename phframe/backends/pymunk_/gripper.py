@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
+import numpy as np
 import pymunk
 
-from phframe.backends.pymunk_.world import Item, ShelfSpace
+from phframe.backends.pymunk_.world import MovingFinger, ShelfItem, ShelfSpace
 from phframe.core import FloatArray
 
 TOUCH = 5e-4
@@ -40,36 +42,41 @@ def set_opening(world: ShelfSpace, opening: float) -> None:
     world.opening = world.command = opening
 
 
-def between_fingers(world: ShelfSpace) -> list[Item]:
+def between_fingers(world: ShelfSpace) -> list[ShelfItem]:
     """The objects whose centres lie between the open fingers."""
     return [item for item in world.items.values() if all(gap >= 0.0 for gap in _gaps(world, item))]
 
 
-def gripped(world: ShelfSpace, items: Sequence[Item]) -> Item | None:
+def gripped(world: ShelfSpace, items: Sequence[ShelfItem]) -> ShelfItem | None:
     """Which of some objects both fingers touch, if any does."""
     for item in items:
-        gaps = _gaps(world, item)
-        if gaps and all(gap <= item.radius + TOUCH for gap in gaps):
+        gaps = zip(_gaps(world, item), world.arm.fingers, strict=True)
+        if world.arm.fingers and all(gap <= _reach(world, item, finger) + TOUCH for gap, finger in gaps):
             return item
     return None
 
 
-def _gaps(world: ShelfSpace, item: Item) -> list[float]:
+def _reach(world: ShelfSpace, item: ShelfItem, finger: MovingFinger) -> float:
+    """How far an object reaches from its centre towards a finger (m)."""
+    across = world.arm.body.angle + finger.side * math.pi / 2.0 - item.body.angle
+    return item.thing.shape.support(np.array([math.cos(across), math.sin(across)]))
+
+
+def _gaps(world: ShelfSpace, item: ShelfItem) -> list[float]:
     """Distance from each finger's inner face to an object's centre (m); negative where it is not beside the finger."""
     x, y = world.arm.body.world_to_local(item.body.position)
     half = world.opening / 2.0
     return [half - f.side * y if f.back <= x <= f.front else -1.0 for f in world.arm.fingers]
 
 
-def hold(world: ShelfSpace, item: Item, command: float) -> None:
-    """Join an object to the gripper: it leaves the board and goes where the gripper goes.
+def hold(world: ShelfSpace, item: ShelfItem, command: float) -> None:
+    """Join an object to the gripper: it goes where the gripper goes, and drags along the board.
 
     Args:
         world: Where.
         item: What.
         command: The opening that the fingers go on being told to have (m), and squeeze for.
     """
-    world.space.remove(*item.floor)
     item.shape.filter = pymunk.ShapeFilter(group=1)
     grip = (
         pymunk.PivotJoint(world.arm.body, item.body, (item.body.position.x, item.body.position.y)),
@@ -77,12 +84,26 @@ def hold(world: ShelfSpace, item: Item, command: float) -> None:
     )
     world.space.add(*grip)
     world.grip, world.held, world.command = grip, item.name, command
+    stand(world, item)
 
 
 def release(world: ShelfSpace) -> None:
-    """Let go of what is held: it stands on the board again."""
+    """Let go of what is held: it stands on the board, free, where it is."""
     item = world.items[world.held or ""]
     world.space.remove(*world.grip)
-    world.space.add(*item.floor)
     item.shape.filter = pymunk.ShapeFilter()
     world.grip, world.held = (), None
+
+
+def stand(world: ShelfSpace, item: ShelfItem) -> None:
+    """Let the board resist what is held, with its friction, up to the mouth, where the board ends."""
+    on_board = item.body.position.x >= 0.0
+    if on_board is not item.on_board:
+        (world.space.add if on_board else world.space.remove)(*item.floor)
+        item.on_board = on_board
+
+
+def drag(world: ShelfSpace) -> float:
+    """What it takes to move what is held along the board (N): Coulomb's mu m g."""
+    item = world.items.get(world.held or "")
+    return item.friction if item is not None and item.on_board else 0.0

@@ -13,18 +13,18 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from phframe.backends.pymunk_.drive import Drive
+from phframe.backends.pymunk_.drive import PymunkDrive
 from phframe.backends.pymunk_.gripper import hold, place_arm, set_opening
 from phframe.backends.pymunk_.measures import take_measures
-from phframe.backends.pymunk_.snapshot import Snapshot, held_twist, set_in_motion, take_snapshot
-from phframe.backends.pymunk_.state import read_state
-from phframe.backends.pymunk_.world import Model, ShelfSpace, Surfaces, build_world
+from phframe.backends.pymunk_.state import PymunkSnapshot, read_state, set_in_motion, take_snapshot
+from phframe.backends.pymunk_.world import PymunkModel, PymunkSurfaces, ShelfSpace, build_world
 from phframe.core import (
     ArmError,
     FloatArray,
     GripperTrajectory,
     Motion,
     Options,
+    Phase,
     Physics,
     Settle,
     State,
@@ -85,55 +85,61 @@ class PymunkPhysics(Physics[PymunkOptions]):
         return read_state(world)
 
     @cached_property
-    def model(self) -> Model:
+    def model(self) -> PymunkModel:
         """What all worlds that this object builds have in common."""
         o, shape = self.options, self.arm.shape
-        surfaces = Surfaces(o.object_friction, o.arm_friction, o.standing_radius)
-        return Model(self.scene, shape, take_measures(shape), surfaces, o.iterations, o.arm_mass)
+        surfaces = PymunkSurfaces(o.object_friction, o.arm_friction, o.standing_radius)
+        return PymunkModel(self.scene, shape, take_measures(shape), surfaces, o.iterations, o.arm_mass)
 
     def execute(
         self, trajectory: Trajectory, *, settle: Settle | None, stop: Stop | None = None, watch: Watch | None = None
     ) -> Motion:
         """Drive the gripper along a trajectory."""
-        o, corners = self.options, settle is not None and isinstance(trajectory, GripperTrajectory)
-        gripper = trajectory if isinstance(trajectory, GripperTrajectory) else trajectory.gripper
-        braking = o.arm_acceleration if corners else None  # a joint trajectory has its times from what the arm can do
-        drive = Drive(
-            self._current, gripper, step=o.step, stall_lag=o.stall_lag, acceleration=braking, stop=stop, watch=watch
+        if not isinstance(trajectory, GripperTrajectory):
+            # A joint trajectory has its times from what the arm can do: it brakes by itself.
+            return self._drive(trajectory.gripper, None, stop, watch).run(settle)
+        return self._drive(trajectory, self.options.arm_acceleration, stop, watch).run(settle)
+
+    def _drive(
+        self, trajectory: GripperTrajectory, braking: float | None, stop: Stop | None, watch: Watch | None
+    ) -> PymunkDrive:
+        o = self.options
+        return PymunkDrive(
+            self._current, trajectory, step=o.step, stall_lag=o.stall_lag, acceleration=braking, stop=stop, watch=watch
         )
-        return drive.run(settle)
 
     def observe(self) -> State:
         """The world as it is now."""
         return read_state(self._current)
 
-    def snapshot(self) -> Snapshot:
+    def snapshot(self) -> PymunkSnapshot:
         """The world as it is now, moving or not."""
         return take_snapshot(self._current)
 
-    def state_of(self, snapshot: Snapshot) -> State:
+    def state_of(self, snapshot: PymunkSnapshot) -> State:
         """What a snapshot holds, its speeds aside."""
         return snapshot.state
 
     def propagate(
         self,
-        snapshot: Snapshot,
+        snapshot: PymunkSnapshot,
         twist: FloatArray,
         dt: float,
         *,
         opening: float | None = None,
         stop: Stop | None = None,
-    ) -> tuple[Snapshot, Motion]:
+    ) -> tuple[PymunkSnapshot, Motion]:
         """Hold a fingertip twist for ``dt`` seconds, without settling; see ``SupportsPropagation``."""
         arm = snapshot.state.arm
         if arm is None:
             raise ArmError("a parked arm cannot be propagated: give a state in which it stands somewhere")
         self.restore(snapshot.state)
         set_in_motion(self._current, snapshot.velocities)
+        times, poses = np.array([0.0, dt]), np.array([arm.gripper, arm.gripper + twist * dt])
         openings = np.array([arm.commanded_opening, arm.commanded_opening if opening is None else opening])
-        motion = self.execute(
-            held_twist(arm.gripper, twist, dt, openings, self.arm.force_limit), settle=None, stop=stop
-        )
+        held = GripperTrajectory(times, poses, openings, (Phase.SWEEP,), self.arm.force_limit)
+        # A twist is held to its end: the arm does not brake between one control and the next.
+        motion = self._drive(held, None, stop, None).run(None)
         return take_snapshot(self._current), motion
 
     def close(self) -> None:

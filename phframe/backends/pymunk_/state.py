@@ -1,16 +1,16 @@
-"""What a pymunk world holds, read as a State, and what no longer belongs in it."""
+"""A pymunk world read as a State or caught in motion, what has left the board, and what is no longer physics."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
-from phframe.backends.pymunk_.world import Item, ShelfSpace
-from phframe.core import ArmState, Condition, FloatArray, SimulationDivergedError, State, planar_pose
-
-TOP_SPEED = 20.0
-"""Anything faster (m/s) is not physics any more."""
+from phframe.backends.contract import TOP_SPEED
+from phframe.backends.pymunk_.gripper import stand
+from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace
+from phframe.core import ArmState, Condition, FloatArray, Floats, SimulationDivergedError, State, Value, planar_pose
 
 
 def read_state(world: ShelfSpace) -> State:
@@ -40,13 +40,15 @@ def _arm_state(world: ShelfSpace) -> ArmState:
     return ArmState(np.array([*body.position, body.angle]), world.opening, world.command)
 
 
-def spill(world: ShelfSpace) -> None:
-    """Take what has left the board at the mouth out of the world."""
+def survey(world: ShelfSpace) -> None:
+    """Take what has left the board at the mouth out of the world; what is held stands on the board as far as that goes."""
+    if world.held is not None:
+        stand(world, world.items[world.held])
     gone = [item for item in world.items.values() if item.body.position.x < 0.0 and item.name != world.held]
     for item in gone:
         world.spilled[item.name] = _pose(world, world.scene.index(item.name))
         del world.items[item.name]
-        world.space.remove(item.shape, *item.floor, item.body)
+        world.space.remove(item.shape, *(item.floor if item.on_board else ()), item.body)
 
 
 def refuse_divergence(world: ShelfSpace) -> None:
@@ -67,5 +69,38 @@ def is_calm(world: ShelfSpace, speed: float) -> bool:
     return all(_speed(item) < speed for item in world.items.values())
 
 
-def _speed(item: Item) -> float:
+def _speed(item: ShelfItem) -> float:
     return math.hypot(*item.body.velocity) + abs(item.body.angular_velocity) * item.radius
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PymunkSnapshot(Value):
+    """A state and how fast its objects move. The arm has no speed of its own: it goes where it is driven.
+
+    Attributes:
+        state: Poses, conditions, what is held, the arm.
+        velocities: ``(n, 3)`` of the objects, x, y (m/s) and spin (rad/s); 0 for what has spilled.
+    """
+
+    state: State
+    velocities: Floats
+
+    def __post_init__(self) -> None:
+        self._freeze("velocities")
+
+
+def take_snapshot(world: ShelfSpace) -> PymunkSnapshot:
+    """The world as it is now."""
+    still = (0.0, 0.0, 0.0)
+    bodies = [world.items[name].body if name in world.items else None for name in world.scene.ids]
+    rows = [still if body is None else (*body.velocity, body.angular_velocity) for body in bodies]
+    return PymunkSnapshot(read_state(world), np.array(rows))
+
+
+def set_in_motion(world: ShelfSpace, velocities: FloatArray) -> None:
+    """Give the objects of a world that has just been built their speeds ``(n, 3)``."""
+    for name, (x, y, spin) in zip(world.scene.ids, velocities.tolist(), strict=True):
+        if name in world.items:
+            world.items[name].body.velocity = x, y
+            world.items[name].body.angular_velocity = spin
+    world.at_rest = not velocities.any()

@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 import pymunk
 
+from phframe.backends.contract import GRAVITY
 from phframe.backends.pymunk_.measures import Measures
+from phframe.backends.pymunk_.shapes import Footprint, footprint
 from phframe.core import ArmShape, Condition, FloatArray, Outline, Scene, SceneObject, State, coulomb_with_board, yaw_of
 
-GRAVITY = 9.81
 WALL_THICKNESS = 0.1
 ARM, OBJECT, WALL = 1, 2, 3
 """Collision types."""
@@ -22,7 +23,7 @@ TRIM = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Surfaces:
+class PymunkSurfaces:
     """Coulomb coefficients between bodies; pymunk multiplies those of the two shapes that touch.
 
     Attributes:
@@ -37,27 +38,47 @@ class Surfaces:
 
     @property
     def object_factor(self) -> float:
-        """An object's share in every product."""
+        """An object's factor in every product."""
         return math.sqrt(self.objects)
 
     def partner_factor(self, coefficient: float) -> float:
-        """The fraction of what touches an object with a coefficient."""
+        """The factor of what touches an object with a coefficient."""
         return coefficient / self.object_factor if self.object_factor > 0.0 else 0.0
 
 
 @dataclass(slots=True)
-class Item:
-    """An object on the board: its body and the joints that stand for friction with the board."""
+class ShelfItem:
+    """An object on the board or in the hand.
 
-    name: str
+    Attributes:
+        thing: As the scene has it.
+        body: Where it is.
+        shape: Its outline.
+        floor: Joints of limited force that stand for its friction with the board.
+        friction: Most that the board resists its sliding with, ``mu m g`` (N).
+        on_board: Whether it stands on the board; what is held outside does not.
+    """
+
+    thing: SceneObject
     body: pymunk.Body
     shape: pymunk.Shape
-    radius: float
     floor: tuple[pymunk.Constraint, ...]
+    friction: float
+    on_board: bool = True
+
+    @property
+    def name(self) -> str:
+        """Its id."""
+        return self.thing.id
+
+    @property
+    def radius(self) -> float:
+        """Its bounding radius seen from above (m)."""
+        return self.thing.radius
 
 
 @dataclass(frozen=True, slots=True)
-class Finger:
+class MovingFinger:
     """A part of the arm that moves as the gripper opens, in plain numbers: it is asked for at every step of a grasp.
 
     Attributes:
@@ -76,7 +97,7 @@ class Finger:
 
 
 @dataclass(slots=True)
-class Arm:
+class DrivenArm:
     """The arm: a body that a force-limited drive draws along with a carrier, which goes exactly where it is told.
 
     Attributes:
@@ -91,7 +112,7 @@ class Arm:
     carrier: pymunk.Body
     drive: pymunk.PivotJoint
     parts: tuple[tuple[pymunk.Poly, Outline], ...]
-    fingers: tuple[Finger, ...]
+    fingers: tuple[MovingFinger, ...]
 
 
 @dataclass(slots=True)
@@ -119,8 +140,8 @@ class ShelfSpace:
 
     scene: Scene
     space: pymunk.Space
-    items: dict[str, Item]
-    arm: Arm
+    items: dict[str, ShelfItem]
+    arm: DrivenArm
     spilled: dict[str, FloatArray]
     toppled: frozenset[str]
     names: dict[pymunk.Shape, str]
@@ -136,7 +157,7 @@ class ShelfSpace:
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class PymunkModel:
     """What every world of one physics object has in common.
 
     Attributes:
@@ -151,12 +172,12 @@ class Model:
     scene: Scene
     shape: ArmShape
     measures: Measures
-    surfaces: Surfaces
+    surfaces: PymunkSurfaces
     iterations: int
     arm_mass: float
 
 
-def build_world(model: Model, state: State) -> ShelfSpace:
+def build_world(model: PymunkModel, state: State) -> ShelfSpace:
     """A new space that holds ``state``; always new, since a used one remembers what ran in it."""
     scene, shape, surfaces = model.scene, model.shape, model.surfaces
     space = pymunk.Space()
@@ -180,7 +201,7 @@ def build_world(model: Model, state: State) -> ShelfSpace:
     return world
 
 
-def _names(walls: dict[pymunk.Shape, str], items: dict[str, Item], arm: Arm) -> dict[pymunk.Shape, str]:
+def _names(walls: dict[pymunk.Shape, str], items: dict[str, ShelfItem], arm: DrivenArm) -> dict[pymunk.Shape, str]:
     objects = {item.shape: name for name, item in items.items()}
     return {**walls, **objects, **{shape: outline.part for shape, outline in arm.parts}}
 
@@ -202,7 +223,7 @@ def _note_depth(arbiter: pymunk.Arbiter, depths: list[float]) -> None:
     depths.extend(-point.distance for point in arbiter.contact_point_set.points)
 
 
-def _add_walls(space: pymunk.Space, scene: Scene, surfaces: Surfaces) -> dict[pymunk.Shape, str]:
+def _add_walls(space: pymunk.Space, scene: Scene, surfaces: PymunkSurfaces) -> dict[pymunk.Shape, str]:
     depth, width, t = scene.shelf.depth, scene.shelf.width, WALL_THICKNESS
     corners = {
         "south wall": (0.0, -t, depth, 0.0),
@@ -219,39 +240,39 @@ def _add_walls(space: pymunk.Space, scene: Scene, surfaces: Surfaces) -> dict[py
     return walls
 
 
-def _add_item(space: pymunk.Space, scene: Scene, item: SceneObject, pose: FloatArray, surfaces: Surfaces) -> Item:
-    radius, mass = item.shape.radius, item.mass
-    body = pymunk.Body(mass, mass * radius * radius / 2.0)
+def _add_item(
+    space: pymunk.Space, scene: Scene, item: SceneObject, pose: FloatArray, surfaces: PymunkSurfaces
+) -> ShelfItem:
+    body = pymunk.Body(item.mass, 1.0)
+    friction = coulomb_with_board(scene, item) * item.mass * GRAVITY
+    foot = footprint(body, item.shape, item.mass, friction)
+    body.moment = foot.inertia
     body.position = float(pose[0]), float(pose[1])
     body.angle = yaw_of(pose)
-    circle = pymunk.Circle(body, radius)
-    circle.friction = surfaces.object_factor
-    circle.collision_type = OBJECT
-    weight = coulomb_with_board(scene, item) * mass * GRAVITY
-    floor = (
-        _sliding_and_turning(space, body, weight, radius)
-        if surfaces.standing is None
-        else _feet(space, body, weight, radius * surfaces.standing)
-    )
-    space.add(body, circle, *floor)
-    return Item(item.id, body, circle, radius, floor)
+    foot.primitive.friction = surfaces.object_factor
+    foot.primitive.collision_type = OBJECT
+    floor = _floor(space, body, friction, foot, surfaces.standing)
+    space.add(body, foot.primitive, *floor)
+    return ShelfItem(item, body, foot.primitive, floor, friction)
 
 
-def _sliding_and_turning(
-    space: pymunk.Space, body: pymunk.Body, weight: float, radius: float
+def _floor(
+    space: pymunk.Space, body: pymunk.Body, friction: float, foot: Footprint, standing: float | None
 ) -> tuple[pymunk.Constraint, ...]:
-    """Friction with the board in two joints that know nothing of one another."""
-    slide = pymunk.PivotJoint(space.static_body, body, (0.0, 0.0), (0.0, 0.0))
-    # A disc that presses evenly on the board resists turning with 2/3 mu m g r.
-    spin = pymunk.GearJoint(space.static_body, body, 0.0, 1.0)
-    return _limited(slide, weight), _limited(spin, weight * radius * 2.0 / 3.0)
+    """Coulomb friction (N) with the board, in joints whose bias is off: they resist motion and never push back.
 
-
-def _feet(space: pymunk.Space, body: pymunk.Body, weight: float, distance: float) -> tuple[pymunk.Constraint, ...]:
-    """Friction with the board at points the object stands on: where it slides already, little turns it."""
-    angles = [math.tau * foot / FEET for foot in range(FEET)]
+    The limit surface, the forces and torques at which an object begins to slide (Goyal, Ruina and Papadopoulos, 1991), is
+    a box where sliding and turning are two joints that know nothing of one another, and nearly the true one where the
+    object stands on points around its edge: what slides already is turned by little.
+    """
+    if standing is None:
+        slide = pymunk.PivotJoint(space.static_body, body, (0.0, 0.0), (0.0, 0.0))
+        spin = pymunk.GearJoint(space.static_body, body, 0.0, 1.0)
+        return _limited(slide, friction), _limited(spin, foot.spin_limit)
+    angles = [math.tau * point / FEET for point in range(FEET)]
+    distance = foot.edge * standing
     points = [(distance * math.cos(angle), distance * math.sin(angle)) for angle in angles]
-    return tuple(_limited(pymunk.PivotJoint(space.static_body, body, (0.0, 0.0), at), weight / FEET) for at in points)
+    return tuple(_limited(pymunk.PivotJoint(space.static_body, body, (0.0, 0.0), at), friction / FEET) for at in points)
 
 
 def _limited(joint: pymunk.Constraint, force: float) -> pymunk.Constraint:
@@ -266,7 +287,7 @@ def _trimmed(vertices: FloatArray) -> tuple[tuple[float, float], ...]:
     return tuple((x, y) for x, y in (vertices - TRIM * np.sign(vertices - middle)).tolist())
 
 
-def _add_arm(space: pymunk.Space, shape: ArmShape, surfaces: Surfaces, mass: float) -> Arm:
+def _add_arm(space: pymunk.Space, shape: ArmShape, surfaces: PymunkSurfaces, mass: float) -> DrivenArm:
     body = pymunk.Body(mass, mass)
     carrier = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
     drive = pymunk.PivotJoint(carrier, body, (0.0, 0.0), (0.0, 0.0))
@@ -283,5 +304,5 @@ def _add_arm(space: pymunk.Space, shape: ArmShape, surfaces: Surfaces, mass: flo
         parts.append((polygon, outline))
         if outline.side:
             depths = [x for x, _ in corners]
-            fingers.append(Finger(polygon, outline.side, corners, min(depths), max(depths)))
-    return Arm(body, carrier, drive, tuple(parts), tuple(fingers))
+            fingers.append(MovingFinger(polygon, outline.side, corners, min(depths), max(depths)))
+    return DrivenArm(body, carrier, drive, tuple(parts), tuple(fingers))

@@ -10,6 +10,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from phframe.backends.mujoco_.engine import MujocoEngine
 from phframe.backends.mujoco_.physics import MujocoPhysics
 from phframe.core import FloatArray
 
@@ -79,5 +80,6 @@ def play(physics: MujocoPhysics, tape: Tape) -> float:
 
 
 def _engine(physics: MujocoPhysics) -> tuple[Any, Any]:
-    world = physics._current
-    return world.model.mj, world.data
+    engine = physics.world.engine
+    assert isinstance(engine, MujocoEngine)
+    return engine.model.mj, engine.data

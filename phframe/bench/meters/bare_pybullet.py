@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 from unittest.mock import patch
 
+from phframe.backends.pybullet_.engine import PybulletEngine
 from phframe.backends.pybullet_.output_capture import bullet
 from phframe.backends.pybullet_.physics import PybulletPhysics
 
@@ -82,6 +83,8 @@ def _noting(tape: Tape, name: str) -> Callable[..., Any]:
 
 
 def _places(physics: PybulletPhysics) -> tuple[Any, ...]:
-    client = physics._current.client
+    engine = physics.world.engine
+    assert isinstance(engine, PybulletEngine)
+    client = engine.client
     bodies = [bullet.getBodyUniqueId(index, client) for index in range(bullet.getNumBodies(client))]
     return tuple(bullet.getBasePositionAndOrientation(body, client) for body in bodies)

@@ -13,7 +13,7 @@ from phframe.testing.physics.motions import MOTION_CHECKS
 from phframe.testing.physics.propagation import PROPAGATION_CHECKS
 from phframe.testing.physics.purity import PURITY_CHECKS
 from phframe.testing.physics.states import STATE_CHECKS
-from phframe.testing.subjects import Lift, PhysicsFactory, PhysicsUnderTest
+from phframe.testing.subjects import PhysicsFactory, PhysicsUnderTest, PlanTrajectory
 from phframe.testing.tolerances import PLANAR, PhysicsTolerances
 
 __all__ = ["PHYSICS_CHECKS", "check_physics"]
@@ -34,7 +34,7 @@ def check_physics(
     arm: ArmModel[Any],
     *,
     tolerances: PhysicsTolerances = PLANAR,
-    lift: Lift | None = None,
+    plan_trajectory: PlanTrajectory | None = None,
     name: str = "the backend",
 ) -> Report:
     """Check that a backend keeps to ``Physics`` with an arm.
@@ -43,11 +43,11 @@ def check_physics(
         factory: Makes a new backend, as in ``lambda scene, arm, base_pose: MyPhysics(scene, arm, base_pose, MyOptions())``.
         arm: The arm.
         tolerances: ``PLANAR``, or ``SPATIAL`` for an engine in space, ``JOINTED`` with an arm of joints.
-        lift: Finds the joints for a gripper trajectory, where the backend executes those; None: straight on, by the
+        plan_trajectory: Finds the joints for a gripper trajectory, where the backend executes those; None: straight on, by the
             arm's inverse kinematics.
         name: Of the backend, for messages.
 
     Raises:
         ConformanceError: With every check that failed.
     """
-    return run_checks(PhysicsUnderTest(factory, arm, tolerances, lift, name), PHYSICS_CHECKS)
+    return run_checks(PhysicsUnderTest(factory, arm, tolerances, plan_trajectory, name), PHYSICS_CHECKS)

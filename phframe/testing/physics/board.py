@@ -10,7 +10,7 @@ from phframe.core import Condition, FloatArray, Phase, Settle, State
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_at_most, expect_close, expect_equal
 from phframe.testing.physics.paths import CROWD_SWEEP, MIDDLE, OUTSIDE, crowd, cylinder, drive_in, path, scene_of
-from phframe.testing.physics.stand import Film, on_stand
+from phframe.testing.physics.stand import WatchLog, on_stand
 from phframe.testing.subjects import PhysicsUnderTest
 
 GRAVITY = 9.81
@@ -59,7 +59,7 @@ def sliding_objects_stop_where_friction_says(subject: PhysicsUnderTest) -> Fault
     for friction in (0.15, 0.4):
         for speed in (0.25, 0.5):
             with on_stand(subject, scene_of(cylinder("o", 0.12, MIDDLE, friction=friction))) as stand:
-                film = Film(LOOKS)
+                film = WatchLog(LOOKS)
                 stand.run(stand.start, drive_in(0.22, speed=speed), watch=film.watch)
                 let_go, slid = _slide(film, friction)
                 enough = let_go > 0.5 * speed
@@ -106,7 +106,7 @@ def what_leaves_at_the_mouth_has_spilled(subject: PhysicsUnderTest) -> Faults:
         yield from expect_equal(again.state.poses[row].tolist(), pose.tolist(), "its pose after another run")
 
 
-def _slide(film: Film, friction: float) -> tuple[float, float]:
+def _slide(film: WatchLog, friction: float) -> tuple[float, float]:
     """The speed (m/s) at which an object left the fingertip for good, and how far it went from there (m)."""
     along = np.array([state.positions[0, 0] for state in film.states])
     times, tips = np.array(film.times), np.array([_tip(state) for state in film.states])

@@ -23,7 +23,7 @@ from phframe.testing.physics.paths import (
     scene_of,
     sweep,
 )
-from phframe.testing.physics.stand import Film, Stand, on_stand
+from phframe.testing.physics.stand import PhysicsStand, WatchLog, on_stand
 from phframe.testing.subjects import PhysicsUnderTest
 
 WALLS = ("south wall", "north wall", "back wall")
@@ -35,7 +35,7 @@ def walls_hold_what_is_pressed_into_them(subject: PhysicsUnderTest) -> Faults:
     """Physics: nothing is ever squeezed through a wall; the arm stalls, and its force keeps to the trajectory's limit."""
     for wall in WALLS:
         with on_stand(subject, _against(subject, wall)[0]) as stand:
-            film, limit = Film(1.0 / 120.0), 40.0
+            film, limit = WatchLog(1.0 / 120.0), 40.0
             motion = stand.run(stand.start, _against(subject, wall)[1], force_limit=limit, watch=film.watch).motion
             sunk = max(_sunk(stand, state) for state in film.states)
             yield from expect_at_most(sunk, subject.tolerances.sunk, f"how far the object is in the {wall} (m)")
@@ -61,7 +61,7 @@ def walls_hold_the_arm(subject: PhysicsUnderTest) -> Faults:
     }
     for wall, way in ways.items():
         with on_stand(subject, scene_of(cylinder("o", 0.45, 0.1 if wall != "south wall" else 0.5))) as stand:
-            film = Film(1.0 / 60.0)
+            film = WatchLog(1.0 / 60.0)
             motion = stand.run(stand.start, way, watch=film.watch).motion
             yield from expect_equal({c.body for c in motion.wall_contacts}, {wall}, "the walls touched")
             yield from expect(motion.stalled, f"a stall at the {wall}", str(motion))
@@ -77,7 +77,7 @@ def walls_hold_the_arm(subject: PhysicsUnderTest) -> Faults:
 def nothing_passes_through_anything(subject: PhysicsUnderTest) -> Faults:
     """State: objects are solid; they push one another aside and do not overlap."""
     with on_stand(subject, crowd()) as stand:
-        film = Film(1.0 / 60.0)
+        film = WatchLog(1.0 / 60.0)
         made = stand.run(stand.start, CROWD_SWEEP, watch=film.watch)
         depth, radii = 0.0, stand.scene.radii
         for state in film.states:
@@ -175,14 +175,14 @@ def _against(subject: PhysicsUnderTest, wall: str) -> tuple[Scene, GripperPath]:
     return scene_of(cylinder("o", 0.3, y, radius=radius)), sweep(0.3 + ahead, start, end)
 
 
-def _sunk(stand: Stand, state: State) -> float:
+def _sunk(stand: PhysicsStand, state: State) -> float:
     """How far any object on the board is in any wall (m)."""
     return max(
         (excess for row in np.flatnonzero(state.on_board) for excess in _excess(stand, state, int(row))), default=0.0
     )
 
 
-def _excess(stand: Stand, state: State, row: int) -> Iterator[float]:
+def _excess(stand: PhysicsStand, state: State, row: int) -> Iterator[float]:
     (x, y), radius, shelf = state.positions[row], float(stand.scene.radii[row]), stand.scene.shelf
     yield radius - float(y)
     yield float(y) + radius - shelf.width

@@ -16,6 +16,7 @@ from phframe.core import (
     Settle,
     State,
     Stop,
+    StopCause,
     Trajectory,
     compose,
     inverse,
@@ -24,7 +25,7 @@ from phframe.core import (
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_at_most, expect_close, expect_equal, expect_raises
 from phframe.testing.physics.paths import CROWD_SWEEP, MIDDLE, OUTSIDE, crowd, cylinder, drive_in, path, scene_of, sweep
-from phframe.testing.physics.stand import Film, Stand, on_stand
+from phframe.testing.physics.stand import PhysicsStand, WatchLog, on_stand
 from phframe.testing.subjects import PhysicsUnderTest
 
 STEP = 0.02
@@ -99,6 +100,26 @@ def trajectories_that_begin_elsewhere_are_refused(subject: PhysicsUnderTest) -> 
 
 
 @check
+def waiting_for_rest_changes_nothing_before(subject: PhysicsUnderTest) -> Faults:
+    """Physics.execute: settle=None means only not to wait; up to the trajectory's end the same happens either way."""
+    with on_stand(subject, crowd()) as stand:
+        trajectory = stand.trajectory(stand.start, CROWD_SWEEP)
+        films = [WatchLog(1.0 / 60.0), WatchLog(1.0 / 60.0)]
+        motions = [
+            stand.physics.simulate(stand.start, trajectory, settle=settle, watch=film.watch).motion
+            for settle, film in zip((Settle(), None), films, strict=True)
+        ]
+        ends = [motion.followed for motion in motions]
+        yield from expect_close(ends[1], ends[0], 1e-9, "how much is driven (s)")
+        tolerance = subject.tolerances.restored
+        for time, waited, hurried in zip(films[0].times, films[0].states, films[1].states[:-1], strict=False):
+            if waited.arm is not None and hurried.arm is not None:
+                where = f"with nobody waiting for rest afterwards, {time:.2f} s after the beginning (m, rad)"
+                yield from expect_close(hurried.arm.gripper, waited.arm.gripper, tolerance, f"the gripper {where}")
+                yield from expect_close(hurried.positions, waited.positions, tolerance, f"the objects {where}")
+
+
+@check
 def contacts_are_told_in_order(subject: PhysicsUnderTest) -> Faults:
     """Motion.contacts: first contact of each part of the arm with each object in each phase, in order of time."""
     scene = scene_of(cylinder("ahead", 0.2, 0.2), cylinder("beside", 0.2, 0.35), cylinder("far", 0.55, 0.55))
@@ -126,7 +147,7 @@ def a_watcher_sees_it_all(subject: PhysicsUnderTest) -> Faults:
     """Watch: a look at the beginning, once in every period, settling included, and at the end."""
     with on_stand(subject, crowd()) as stand:
         for period in (0.05, 0.25):
-            film = Film(period)
+            film = WatchLog(period)
             made = stand.run(stand.start, CROWD_SWEEP, watch=film.watch)
             times = np.array(film.times)
             if len(times) < 2:
@@ -169,7 +190,8 @@ def stops_at_a_force(subject: PhysicsUnderTest) -> Faults:
     """Stop.force: the motion ends when the force on the arm is above this."""
     with on_stand(subject, scene_of(cylinder("heavy", 0.2, MIDDLE, mass=4.0, friction=0.5))) as stand:
         motion = stand.run(stand.start, drive_in(0.4), stop=Stop(force=8.0)).motion
-        yield from expect(motion.stopped, "stopped, as 19.6 N are needed", str(motion))
+        cause = None if motion.stopped is None else motion.stopped.cause
+        yield from expect(cause is StopCause.FORCE, "stopped by the force, as 19.6 N are needed", str(motion))
         yield from expect(motion.stopped is None or not motion.stalled, "a stop rather than a stall", str(motion))
         free = stand.run(stand.start, drive_in(0.15), stop=Stop(force=8.0)).motion
         yield from expect(free.complete, "no stop where nothing is touched", str(free))
@@ -180,12 +202,13 @@ def stops_at_a_wall(subject: PhysicsUnderTest) -> Faults:
     """Stop.wall: the motion ends at any contact of the arm with a wall."""
     with on_stand(subject, scene_of(cylinder("o", 0.3, 0.5))) as stand:
         made = stand.run(stand.start, sweep(0.3, MIDDLE, 0.0), stop=Stop(wall=True))
-        yield from expect(made.motion.stopped, "stopped at the south wall", str(made.motion))
+        cause = None if made.motion.stopped is None else made.motion.stopped.cause
+        yield from expect(cause is StopCause.WALL, "stopped by the south wall", str(made.motion))
         walls = {contact.body for contact in made.motion.wall_contacts}
         yield from expect_equal(walls, {"south wall"}, "the walls touched")
 
 
-def _from(stand: Stand, state: State, offset: list[float]) -> Trajectory:
+def _from(stand: PhysicsStand, state: State, offset: list[float]) -> Trajectory:
     """A short trajectory that begins a little off where the arm is."""
     assert state.arm is not None
     begin = state.arm.gripper + np.array(offset)
@@ -194,7 +217,7 @@ def _from(stand: Stand, state: State, offset: list[float]) -> Trajectory:
     return stand.trajectory(State(state.poses, state.conditions, arm=shifted), path([begin, end], [Phase.INSERT]))
 
 
-def _joints_at(stand: Stand, gripper: FloatArray, seed: FloatArray | None) -> FloatArray | None:
+def _joints_at(stand: PhysicsStand, gripper: FloatArray, seed: FloatArray | None) -> FloatArray | None:
     """Joint values near others, where those are known: an arm of many joints has other ones for the same gripper."""
     if seed is None:
         return None
@@ -217,6 +240,7 @@ MOTION_CHECKS: tuple[Check[PhysicsUnderTest], ...] = (
     fingers_open_and_close_as_told,
     execution_goes_on_from_where_the_world_is,
     trajectories_that_begin_elsewhere_are_refused,
+    waiting_for_rest_changes_nothing_before,
     contacts_are_told_in_order,
     a_watcher_sees_it_all,
     stops_at_the_first_contact,

@@ -11,7 +11,7 @@ from phframe.core import ArmError, Stop, SupportsPropagation
 from phframe.testing.check import Check, Faults, NotApplicableError, check
 from phframe.testing.expect import expect, expect_at_most, expect_close, expect_equal, expect_raises
 from phframe.testing.physics.paths import MIDDLE, crowd, cylinder, drive_in, scene_of
-from phframe.testing.physics.stand import Stand, on_stand
+from phframe.testing.physics.stand import PhysicsStand, on_stand
 from phframe.testing.subjects import PhysicsUnderTest
 
 AHEAD = np.array([0.1, 0.0, 0.0])
@@ -103,13 +103,13 @@ def propagation_needs_an_arm(subject: PhysicsUnderTest) -> Faults:
         yield from expect_raises(ArmError, lambda: backend.propagate(parked, AHEAD, 0.1), "a parked arm")
 
 
-def _backend(stand: Stand) -> SupportsPropagation[Any]:
+def _backend(stand: PhysicsStand) -> SupportsPropagation[Any]:
     if not isinstance(stand.physics, SupportsPropagation):
         raise NotApplicableError(f"{stand.subject.name} does not offer propagation")
     return stand.physics
 
 
-def _snapshot(stand: Stand) -> Any:
+def _snapshot(stand: PhysicsStand) -> Any:
     """The world at rest with the fingertip 5 cm inside the mouth."""
     backend = _backend(stand)
     stand.physics.restore(stand.run(stand.start, drive_in(0.05)).state)

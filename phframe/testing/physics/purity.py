@@ -11,7 +11,7 @@ from phframe.core import Phase, Settle, State, Trajectory, Transition
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_equal
 from phframe.testing.physics.paths import CROWD_SWEEP, crowd, cylinder, drive_in, grasp, path, scene_of, sweep
-from phframe.testing.physics.stand import Film, Stand, on_stand
+from phframe.testing.physics.stand import PhysicsStand, WatchLog, on_stand
 from phframe.testing.subjects import PhysicsUnderTest
 
 SECOND_SWEEP = sweep(0.42, 0.42, 0.25)
@@ -80,7 +80,7 @@ def watching_changes_nothing(subject: PhysicsUnderTest) -> Faults:
         for state, trajectory, what in _cases(stand):
             unseen = stand.physics.simulate(state, trajectory)
             for period in (1e-3, 1.0 / 30.0, 10.0):
-                found = stand.physics.simulate(state, trajectory, watch=Film(period).watch)
+                found = stand.physics.simulate(state, trajectory, watch=WatchLog(period).watch)
                 yield from _expect_same(found, unseen, f"{what}, watched every {period:g} s")
 
 
@@ -100,7 +100,7 @@ def observing_changes_nothing(subject: PhysicsUnderTest) -> Faults:
         yield from expect_equal(ends[1], ends[0], "the world after a run in which somebody looked")
 
 
-def _cases(stand: Stand) -> Iterator[tuple[State, Trajectory, str]]:
+def _cases(stand: PhysicsStand) -> Iterator[tuple[State, Trajectory, str]]:
     """States and trajectories: the first push, a push from where the arm was left, a stopped arm, a held target."""
     yield stand.start, stand.trajectory(stand.start, CROWD_SWEEP), "a first sweep"
     pushed = stand.run(stand.start, CROWD_SWEEP).state
@@ -112,7 +112,7 @@ def _cases(stand: Stand) -> Iterator[tuple[State, Trajectory, str]]:
     yield lone, stand.trajectory(lone, grasp(stand.arm, 0.5)), "a grasp"
 
 
-def _moved_aside(stand: Stand) -> list[list[float]]:
+def _moved_aside(stand: PhysicsStand) -> list[list[float]]:
     """Poses with all but the target along the walls."""
     poses: list[list[float]] = stand.start.poses.tolist()
     for row, y in enumerate((0.05, 0.12, 0.48, 0.55)):
@@ -120,7 +120,7 @@ def _moved_aside(stand: Stand) -> list[list[float]]:
     return poses
 
 
-def _disturbances(stand: Stand, other: Stand) -> Iterator[str]:
+def _disturbances(stand: PhysicsStand, other: PhysicsStand) -> Iterator[str]:
     physics = stand.physics
     stand.run(stand.start, SECOND_SWEEP)
     yield "another sweep"

@@ -29,12 +29,12 @@ from phframe.core import (
     time_path,
 )
 from phframe.testing.check import NotApplicableError
-from phframe.testing.physics.lift import lift_straight
 from phframe.testing.physics.paths import rule
+from phframe.testing.physics.straight_joints import plan_straight
 from phframe.testing.subjects import PhysicsUnderTest
 
 
-class Stand:
+class PhysicsStand:
     """One backend with one scene, and the gripper at hand.
 
     Args:
@@ -64,7 +64,7 @@ class Stand:
             )
             opening = state.arm.commanded_opening
         timed = time_path(path, opening, self.arm.force_limit if force_limit is None else force_limit)
-        return self.lifted(state, timed)
+        return self.driven(state, timed)
 
     def _closed_as_it_closes(self, path: GripperPath) -> GripperPath:
         """A path for fingers that close all the way, for a gripper whose do not."""
@@ -72,7 +72,7 @@ class Stand:
         rules = {phase: replace(found, opening=max(found.opening, least)) for phase, found in path.rules.items()}
         return replace(path, rules=rules)
 
-    def lifted(self, state: State, trajectory: GripperTrajectory) -> Trajectory:
+    def driven(self, state: State, trajectory: GripperTrajectory) -> Trajectory:
         """What the backend executes for a gripper trajectory that begins in a state.
 
         Raises:
@@ -80,9 +80,9 @@ class Stand:
         """
         if self.physics.executes is not JointTrajectory:
             return trajectory
-        lift = self.subject.plan_trajectory or lift_straight
+        plan = self.subject.plan_trajectory or plan_straight
         try:
-            return lift(trajectory, state, self.arm, self.base_pose)
+            return plan(trajectory, state, self.arm, self.base_pose)
         except InputError as error:
             raise NotApplicableError(f"the arm cannot do what this check needs: {error}") from error
 
@@ -107,7 +107,7 @@ class Stand:
         still = GripperTrajectory(
             np.array([0.0, seconds]), poses, np.full(2, opening), (Phase.INSERT,), self.arm.force_limit
         )
-        return self.lifted(state, still)
+        return self.driven(state, still)
 
     def center(self, state: State, name: str) -> FloatArray:
         """Centre ``(2,)`` of an object (m)."""
@@ -115,17 +115,17 @@ class Stand:
 
 
 @contextmanager
-def on_stand(subject: PhysicsUnderTest, scene: Scene) -> Iterator[Stand]:
+def on_stand(subject: PhysicsUnderTest, scene: Scene) -> Iterator[PhysicsStand]:
     """A stand whose backend is closed in the end."""
-    stand = Stand(subject, scene)
+    stand = PhysicsStand(subject, scene)
     try:
         yield stand
     finally:
         stand.physics.close()
 
 
-class Film:
-    """Somebody who looks on and remembers everything.
+class WatchLog:
+    """Somebody who looks on, and writes down everything.
 
     Args:
         period: Seconds between looks.

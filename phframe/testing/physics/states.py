@@ -12,7 +12,7 @@ from phframe.core import ArmState, Condition, InputError, State, tilt_of
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_close, expect_equal, expect_raises
 from phframe.testing.physics.paths import CROWD_SWEEP, OUTSIDE, crowd, drive_in
-from phframe.testing.physics.stand import Stand, on_stand
+from phframe.testing.physics.stand import PhysicsStand, on_stand
 from phframe.testing.subjects import PhysicsUnderTest
 
 
@@ -92,17 +92,17 @@ def bad_states_are_refused(subject: PhysicsUnderTest) -> Faults:
 @check
 def closing_twice_is_allowed(subject: PhysicsUnderTest) -> Faults:
     """Physics.close: give the engine's memory back; may be called twice."""
-    stand = Stand(subject, crowd())
+    stand = PhysicsStand(subject, crowd())
     stand.physics.close()
     stand.physics.close()
-    stand = Stand(subject, crowd())
+    stand = PhysicsStand(subject, crowd())
     stand.run(stand.start, drive_in(0.1))
     stand.physics.close()
     stand.physics.close()
     yield from ()
 
 
-def _states(stand: Stand) -> Iterator[tuple[State, str]]:
+def _states(stand: PhysicsStand) -> Iterator[tuple[State, str]]:
     yield stand.start, "the scene as written"
     pushed = stand.run(stand.start, CROWD_SWEEP)
     yield pushed.state, "the state after a sweep"
@@ -127,7 +127,7 @@ def _bad_states(start: State) -> Iterator[tuple[State, str]]:
     yield replace(start, arm=ArmState(np.array([np.nan, 0.3, 0.0]), 0.0)), "an arm at no place"
 
 
-def _expect_near(found: State, wanted: State, stand: Stand, what: str) -> Faults:
+def _expect_near(found: State, wanted: State, stand: PhysicsStand, what: str) -> Faults:
     tolerance = stand.tolerances.restored
     yield from expect_close(found.poses[:, :3], wanted.poses[:, :3], tolerance, f"positions after restoring {what}")
     yield from expect_equal(found.conditions, wanted.conditions, f"conditions after restoring {what}")
