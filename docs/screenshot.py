@@ -72,8 +72,9 @@ def _served(recording: Path) -> Iterator[str]:
     """The recording behind a web server; its address."""
     web, data = _free_port(), _free_port()
     command = [sys.executable, "-m", "rerun", "--serve-web", "--web-viewer-port", str(web), "--port", str(data)]
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    server = subprocess.Popen([*command, str(recording)], start_new_session=True, **quiet)
+    server = subprocess.Popen(
+        [*command, str(recording)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+    )
     try:
         _await_port(web)
         yield f"http://127.0.0.1:{web}/?url=rerun%2Bhttp://127.0.0.1:{data}/proxy"

@@ -27,7 +27,7 @@ def log_persistence(stream: Stream, decision: PushDecision) -> None:
     _log_bars(stream, ends, rows, [*persistent, *[False] * infinite])
     _log_ends(stream, finite[persistent], ends[: len(finite)][persistent], rows[: len(finite)][persistent])
     _log_radius(stream, decision.radius, span)
-    note = [] if len(ends) else ["nothing in the way"]
+    note = [] if len(ends) else ["no obstacle"]
     stream.put("persistence/note", _captions([[0.5, HEIGHT / 2]] * len(note), note, palette.TEXT))
 
 
