@@ -16,8 +16,6 @@ IN_FRONT = 0.22
 
 FIELD_OF_VIEW = 55.0
 """Of the viewer's camera, from bottom to top (degrees)."""
-CORNERS = 0.8
-"""How much of the ball around a box is in view: its corners are empty."""
 BESIDE, BELOW = 0.45, 0.3
 """How far beside its base (m), and below the board, a robot need not be in view."""
 
@@ -42,12 +40,17 @@ def blueprint_for(shelf: Shelf, base_pose: BasePose, robot: FloatArray | None = 
 
 
 def _solid(shelf: Shelf, base_pose: BasePose, robot: FloatArray | None) -> rrb.View:
-    north = base_pose.y < 0.5 * shelf.width
-    position, target = _before(shelf, north) if robot is None else _beside(shelf, base_pose, north, robot)
+    position, target = eye_for(shelf, base_pose, robot)
     eye = rrb.EyeControls3D(position=position, look_target=target, eye_up=[0.0, 0.0, 1.0])
     return rrb.Spatial3DView(
         origin="/world", name="Shelf", background=palette.BACKDROP, line_grid=False, eye_controls=eye
     )
+
+
+def eye_for(shelf: Shelf, base_pose: BasePose, robot: FloatArray | None) -> tuple[FloatArray, FloatArray]:
+    """Where the eye is and what it looks at, each ``(3,)`` in the shelf frame (m)."""
+    north = base_pose.y < 0.5 * shelf.width
+    return _before(shelf, north) if robot is None else _beside(shelf, base_pose, north, robot)
 
 
 def _before(shelf: Shelf, north: bool) -> tuple[FloatArray, FloatArray]:
@@ -63,7 +66,7 @@ def _beside(shelf: Shelf, base_pose: BasePose, north: bool, robot: FloatArray) -
     high = np.maximum(
         np.minimum(robot[1], [np.inf, base_pose.y + BESIDE, np.inf]), [shelf.depth, shelf.width, shelf.height]
     )
-    ball = CORNERS * 0.5 * float(np.linalg.norm(high - low))
+    ball = 0.5 * float(np.linalg.norm(high - low))
     away = np.array([0.0, 0.8 if north else -0.8, 0.6])
     middle = 0.5 * (low + high)
     return middle + away * ball / np.sin(np.radians(FIELD_OF_VIEW / 2.0)), middle
