@@ -5,6 +5,7 @@
 TEST_EXTRAS ?= dev,rerun
 TEST_3D_EXTRAS ?= dev,mujoco,pybullet,ompl,baxter,meshes,video
 DEMO_EXTRAS ?= rerun
+PICTURES_EXTRAS ?= rerun,mujoco,ompl,baxter,meshes,video,plots
 BENCH_EXTRAS ?= dev,rerun,mujoco,pybullet,ompl,baxter
 SCENE ?= vieira/basic
 # What is tested with phframe: plugins as their users have them, installed.
@@ -28,7 +29,7 @@ has_plugins = import importlib.metadata as m; [m.version(name) for name in '$(no
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-3d lint bench clean interpreter FORCE
+.PHONY: help demo test test-3d lint bench pictures clean interpreter FORCE
 
 help: ## say what can be made (the default)
 	@echo 'usage: make TARGET [PYTHON=/path/to/python3.11]'
@@ -56,6 +57,9 @@ lint: $(call stamp,$(TEST_EXTRAS)) ## check style, types, layers and spelling
 
 bench: $(call stamp,$(BENCH_EXTRAS)) ## measure planning and simulation against bare loops
 	@$(VENV)/bin/python -m phframe.bench.meters
+
+pictures: $(call stamp,$(PICTURES_EXTRAS)) ## make every picture of README and docs anew, by Chromium and MuJoCo
+	@$(VENV)/bin/python -m docs.make_pictures
 
 clean: ## remove .venv and all caches, keep runs/
 	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .import_linter_cache .hypothesis .benchmarks

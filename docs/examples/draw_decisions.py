@@ -1,12 +1,15 @@
 """Draws an episode from the top, one panel per action: ``draw(phframe.solve("vieira/basic"), "decisions.png")``."""
 
+import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from phframe.core import Episode, FloatArray, Scene, Step
+import phframe
+from phframe.core import Episode, FloatArray, Scene, Shape, Step, rotate
 from phframe.pushing import PushDecision
 
 COMPONENTS = ("#2f80c2", "#8a5fd3", "#2e9e5b", "#d4559b", "#2aa39b", "#8d9b1f")
@@ -32,7 +35,7 @@ def _draw_decision(axes: Any, step: Step) -> None:
     if corridor is not None:
         low, high = corridor.axis - corridor.half_width, corridor.axis + corridor.half_width
         strip = [[corridor.start, low], [corridor.end, low], [corridor.end, high], [corridor.start, high]]
-        axes.fill(*corridor.to_shelf(_array(strip)).T, color="#dcebf7", zorder=0)
+        axes.fill(*corridor.to_shelf(np.array(strip)).T, color="#dcebf7", zorder=0)
         if rectangle is not None:
             axes.fill(*corridor.to_shelf(rectangle.corners).T, fill=False, edgecolor="black", zorder=4)
     path = step.action.path.poses[:, :2]
@@ -44,11 +47,11 @@ def _draw_decision(axes: Any, step: Step) -> None:
 def _draw_objects(axes: Any, scene: Scene, step: Step) -> None:
     decision = PushDecision.of(step.decision)
     labels = dict(zip(decision.members, () if decision.labels is None else decision.labels, strict=False))
-    for item, before, after in zip(scene.objects, step.before.positions, step.after.positions, strict=True):
+    for item, before, after in zip(scene.objects, step.before.poses, step.after.poses, strict=True):
         color = COMPONENTS[labels[item.id] % len(COMPONENTS)] if item.id in labels else OBSTACLE
         color = TARGET if item.id == scene.target else color
-        axes.add_patch(_circle(before, item.radius, color=color, zorder=2))
-        axes.add_patch(_circle(after, item.radius, fill=False, linestyle=":", color=color, zorder=3))
+        axes.fill(*_outline(item.shape, before), color=color, zorder=2)
+        axes.fill(*_outline(item.shape, after), fill=False, linestyle=":", edgecolor=color, zorder=3)
 
 
 def _draw_shelf(axes: Any, scene: Scene) -> None:
@@ -58,13 +61,11 @@ def _draw_shelf(axes: Any, scene: Scene) -> None:
     axes.set_frame_on(False)
 
 
-def _circle(center: FloatArray, radius: float, **style: Any) -> Any:
-    from matplotlib.patches import Circle
+def _outline(shape: Shape, pose: FloatArray) -> FloatArray:
+    """Its corners ``(2, k)`` in the shelf frame, seen from above."""
+    corners = shape.outline
+    return np.array([rotate(pose[3:], np.append(corner, 0.0))[:2] + pose[:2] for corner in corners]).T
 
-    return Circle((float(center[0]), float(center[1])), radius, **style)
 
-
-def _array(rows: list[list[float]]) -> FloatArray:
-    import numpy as np
-
-    return np.array(rows)
+if __name__ == "__main__":
+    draw(phframe.solve("vieira/basic"), sys.argv[1])

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from phframe.core import ArmShape, ArmState, FloatArray, Outline, Scene, compose, planar_pose, yaw_of
+from phframe.core import ArmShape, ArmState, FloatArray, Outline, Scene, State, compose, planar_pose, rotate, yaw_of
 from phframe.recorders import palette
-from phframe.recorders.bodies import Body, Piece, prism
+from phframe.recorders.bodies import Body, Piece, points_of, prism
 from phframe.recorders.frames import Frames, parked_arm
 from phframe.recorders.robot import drawn_robot
 from phframe.runtime.observer import MountedArm
@@ -29,6 +29,19 @@ class ArmBodies(ABC):
     @abstractmethod
     def poses(self, frames: Frames) -> dict[str, FloatArray]:
         """Pose ``(m, 7)`` of every body in the shelf frame in ``m`` frames, by name; ``m`` is 1 for what never moves."""
+
+    def extent(self) -> FloatArray:
+        """Least and greatest corner ``(2, 3)`` of the parked arm in the shelf frame (m)."""
+        still = State(np.zeros((0, 7)), ())
+        poses = self.poses(Frames.gather(np.zeros(1), [still], self.parked))
+        points = np.vstack(
+            [
+                rotate(poses[body.name][0, 3:], points_of(piece.shape)) + poses[body.name][0, :3]
+                for body in self.bodies
+                for piece in body.pieces
+            ]
+        )
+        return np.array([points.min(axis=0), points.max(axis=0)])
 
 
 def bodies_of(arm: MountedArm, scene: Scene) -> ArmBodies:

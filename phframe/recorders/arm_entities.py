@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import rerun as rr
 
 from phframe.core import ArmShape, FloatArray
 from phframe.recorders import palette
 from phframe.recorders.arm_bodies import ArmBodies, parts_of
-from phframe.recorders.bodies import Piece, Primitive, normals
 from phframe.recorders.filling import filling
 from phframe.recorders.frames import Frames, changes, quaternions_xyzw
+from phframe.recorders.solid_entities import solid
 from phframe.recorders.stream import Stream
 
 FILLING_LINES = 8
@@ -22,7 +20,7 @@ def log_arm(stream: Stream, arm: ArmShape, bodies: ArmBodies) -> None:
     """The shape of every body in its own frame, and of every outline, fingers closed, in that of the fingertip."""
     for body in bodies.bodies:
         for piece in body.pieces:
-            stream.keep(f"{_body(body.name)}/{rr.escape_entity_path_part(piece.name)}", _solid(piece))
+            stream.keep(f"{_body(body.name)}/{rr.escape_entity_path_part(piece.name)}", solid(piece.shape, piece.color))
     for part, outlines in parts_of(arm).items():
         color = palette.FINGER if outlines[0].side else palette.LINK
         fills = [filling(outline.vertices, FILLING_LINES) for outline in outlines]
@@ -73,26 +71,3 @@ def _about_vertical(yaw: FloatArray) -> FloatArray:
 def _sideways(distance: FloatArray) -> FloatArray:
     nothing = np.zeros_like(distance)
     return np.column_stack([nothing, distance, nothing])
-
-
-def _solid(piece: Piece) -> rr.AsComponents:
-    """A piece as the viewer has it."""
-    shape, color = piece.shape, piece.color
-    if not isinstance(shape, Primitive):
-        return rr.Mesh3D(
-            vertex_positions=shape.vertices,
-            vertex_normals=normals(shape),
-            triangle_indices=shape.triangles,
-            albedo_factor=color,
-        )
-    at: dict[str, Any] = {"centers": [shape.pose[:3]], "quaternions": [quaternions_xyzw(shape.pose)]}
-    match shape.kind:
-        case "box":
-            half = np.array([shape.size]) / 2.0
-            return rr.Boxes3D(half_sizes=half, colors=color, fill_mode="solid", **at)
-        case "cylinder":
-            radius, length = shape.size
-            return rr.Cylinders3D(radii=[radius], lengths=[length], colors=color, fill_mode="solid", **at)
-        case _:
-            half = np.full((1, 3), shape.size[0])
-            return rr.Ellipsoids3D(half_sizes=half, colors=color, fill_mode="solid", **at)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import product
 from typing import Literal
 
 import numpy as np
 
-from phframe.core import FloatArray, Floats, Ints, Outline, Value, planar_pose
+from phframe.core import FloatArray, Floats, Ints, Outline, Value, compose, planar_pose
 from phframe.recorders import palette
 
 
@@ -68,6 +69,17 @@ class Body:
 
     name: str
     pieces: tuple[Piece, ...]
+
+
+def points_of(shape: Primitive | Surface) -> FloatArray:
+    """Points ``(n, 3)`` in the frame of the body whose hull holds a shape: its vertices, or the corners of a box around."""
+    if isinstance(shape, Surface):
+        return shape.vertices
+    lengths = {"box": shape.size, "cylinder": (2 * shape.size[0],) * 2 + shape.size[1:]}.get(
+        shape.kind, (2 * shape.size[0],) * 3
+    )
+    corners = np.array(list(product((-0.5, 0.5), repeat=3))) * lengths
+    return np.array([compose(shape.pose, planar_pose(*corner))[:3] for corner in corners])
 
 
 def prism(outline: Outline) -> Surface:

@@ -17,7 +17,7 @@ from phframe.core.files import NewFile
 
 
 @dataclass(frozen=True, slots=True)
-class Format:
+class VideoFormat:
     """What a kind of file holds.
 
     Attributes:
@@ -41,9 +41,9 @@ class Format:
     writing: Mapping[str, str] = field(default_factory=dict)
 
 
-FORMATS: Mapping[str, Format] = MappingProxyType(
+FORMATS: Mapping[str, VideoFormat] = MappingProxyType(
     {
-        ".mp4": Format(
+        ".mp4": VideoFormat(
             "mp4",
             "libx264",
             960,
@@ -52,13 +52,15 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
             encoding={"crf": "21", "preset": "veryfast"},
             writing={"movflags": "faststart"},
         ),
-        ".webp": Format("webp", "libwebp_anim", 720, 404, 12, 3.0, encoding={"quality": "70"}, writing={"loop": "0"}),
+        ".webp": VideoFormat(
+            "webp", "libwebp_anim", 720, 404, 12, 3.0, encoding={"quality": "70"}, writing={"loop": "0"}
+        ),
     }
 )
 """By the file's ending: a video, and a small moving picture for a page, quicker than the world."""
 
 
-def format_of(path: Path) -> Format:
+def format_of(path: Path) -> VideoFormat:
     """What a file is to hold, by its ending.
 
     Raises:
@@ -82,7 +84,7 @@ class Film:
         InputError: If it cannot be written.
     """
 
-    def __init__(self, path: Path, kind: Format) -> None:
+    def __init__(self, path: Path, kind: VideoFormat) -> None:
         self.path, self.kind = path, kind
         self._pictures, self._file = 0, NewFile(path)
         try:

@@ -28,13 +28,19 @@ def plan_line(plan: Plan, number: int) -> str:
 def decision_line(step: Step, number: int) -> str:
     """An action and why it was chosen."""
     decision = PushDecision.of(step.decision)
-    parts = [*_crowd(decision), *_grouping(decision)]
+    parts = [*([decision.why] if decision.why else []), *_crowd(decision), *_grouping(decision)]
     return f"{number}. {step.action.name}" + (f" ({'; '.join(parts)})" if parts else "")
 
 
 def outcome_line(step: Step, scene: Scene, number: int) -> str:
     """What an action did."""
     return f"{number}. done in {', '.join(_outcome(step, scene))}"
+
+
+def tried_line(step: Step, scene: Scene, number: int, closed: str) -> str:
+    """What an action of a plan that failed did when it was simulated, and why the search did not go on from there."""
+    why = f"; given up: {closed}" if closed else ""
+    return f"{number}. only simulated: {', '.join(_outcome(step, scene))}{why}"
 
 
 def ending_line(episode: Episode) -> str:
@@ -50,6 +56,7 @@ def decision_page(step: Step, scene: Scene, number: int, done: bool) -> str:
     """The same at length, as Markdown, with the outcome once the action is ``done``."""
     decision = PushDecision.of(step.decision)
     rows = [
+        ("why", decision.why),
         ("corridor", _corridor(decision.corridor)),
         ("obstacles", ", ".join(decision.members)),
         ("persistent radii", _millimetres(decision.persistent_radii)),
@@ -81,7 +88,7 @@ def went_wrong(step: Step, scene: Scene) -> bool:
 
 def _crowd(decision: PushDecision) -> Iterable[str]:
     if decision.corridor is not None:
-        yield f"{len(decision.members) or 'nothing'} obstacles"
+        yield _plural(len(decision.members), "obstacle") if decision.members else "no obstacle"
 
 
 def _grouping(decision: PushDecision) -> Iterable[str]:

@@ -27,8 +27,8 @@ def log_persistence(stream: Stream, decision: PushDecision) -> None:
     _log_bars(stream, ends, rows, [*persistent, *[False] * infinite])
     _log_ends(stream, finite[persistent], ends[: len(finite)][persistent], rows[: len(finite)][persistent])
     _log_radius(stream, decision.radius, span)
-    note = [] if len(ends) else ["nothing in the way"]
-    stream.put("persistence/note", _captions([[0.5, HEIGHT / 2]] * len(note), note, palette.CAPTION))
+    note = [] if len(ends) else ["no obstacle"]
+    stream.put("persistence/note", _captions([[0.5, HEIGHT / 2]] * len(note), note, palette.TEXT))
 
 
 def _lengths(decision: PushDecision) -> tuple[FloatArray, int]:
@@ -57,7 +57,7 @@ def _log_scale(stream: Stream, span: float) -> None:
     stream.put("persistence/scale", rr.LineStrips2D(lines, radii=-0.6, colors=palette.FAINT, draw_order=-10.0))
     captions = [f"{1000 * mark:.0f}" + (" mm" if mark == marks[-1] else "") for mark in marks]
     at = [[x, HEIGHT + 0.045] for x in places]
-    stream.put("persistence/scale/marks", _captions(at, captions, palette.CAPTION))
+    stream.put("persistence/scale/marks", _captions(at, captions, palette.TEXT))
 
 
 def _log_bars(stream: Stream, ends: FloatArray, rows: FloatArray, persistent: list[bool]) -> None:
@@ -69,7 +69,7 @@ def _log_bars(stream: Stream, ends: FloatArray, rows: FloatArray, persistent: li
 def _log_ends(stream: Stream, deaths: FloatArray, ends: FloatArray, rows: FloatArray) -> None:
     at = np.column_stack([ends, rows])
     captions = [f"{1000 * death:.0f}" for death in deaths]
-    stream.put("persistence/persistent", _captions(at, captions, palette.PERSISTENT, radius=4.0))
+    stream.put("persistence/persistent", _captions(at, captions, palette.TEXT, radius=4.0))
 
 
 def _log_radius(stream: Stream, radius: float | None, span: float) -> None:
@@ -77,7 +77,7 @@ def _log_radius(stream: Stream, radius: float | None, span: float) -> None:
     lines = [[[x, -0.02], [x, HEIGHT + 0.02]] for x in at]
     stream.put("persistence/radius", rr.LineStrips2D(lines, radii=-1.2, colors=palette.SWEEP, draw_order=30.0))
     captions = [] if radius is None else [f"chosen radius {1000 * radius:.0f} mm"]
-    stream.put("persistence/radius/value", _captions([[x, -0.05] for x in at], captions, palette.SWEEP))
+    stream.put("persistence/radius/value", _captions([[x, -0.05] for x in at], captions, palette.TEXT))
 
 
 def _captions(

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import rerun as rr
 
-from phframe.core import Episode, Plan, RunSpec, Scene, State, Step
+from phframe.core import Episode, ExploredTree, Plan, RunSpec, Scene, State, Step
 from phframe.pushing import PushDecision
 from phframe.recorders import (
     arm_entities,
@@ -20,11 +20,13 @@ from phframe.recorders import (
     persistence_entities,
     series,
     shelf_entities,
+    tree_entities,
 )
 from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.blueprint import blueprint_for
 from phframe.recorders.coloring import components_of
 from phframe.recorders.frames import Frames
+from phframe.recorders.search_path import farthest_path
 from phframe.recorders.stream import Stream
 from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.versions import versions_of
@@ -54,7 +56,8 @@ class RerunRecorder(Observer):
             InputError: If the file cannot be written, or the arm cannot be drawn.
         """
         self._scene, self._arm, self._bodies = scene, arm.shape, bodies_of(arm, scene)
-        stream = Stream(self.path, scene.name, blueprint_for(scene.shelf, arm.base_pose), _properties(spec))
+        blueprint = blueprint_for(scene.shelf, arm.base_pose, self._bodies.extent() if arm.by_joints else None)
+        stream = Stream(self.path, scene.name, blueprint, _properties(spec))
         self._stream = stream
         self._seconds, self._actions, self._plans = 0.0, 0, 0
         shelf_entities.log_shelf(stream, scene.shelf)
@@ -64,12 +67,15 @@ class RerunRecorder(Observer):
         self._show_beginning(stream, narration.opening_line(scene, spec))
 
     def planned(self, plan: Plan) -> None:
-        """Write down what a plan holds and what it cost."""
+        """Write down what a plan holds, what it was found among and what it cost; of one that failed, what was tried."""
         if self._stream is not None:
             self._plans += 1
             series.log_planning(self._stream, plan)
+            tree_entities.log_tree(self._stream, plan.tree)
             level = "INFO" if plan.succeeded else "WARN"
             self._say(self._stream, narration.plan_line(plan, self._plans), level)
+            if plan.tree is not None and not plan.succeeded:
+                self._show_tried(self._stream, plan.tree)
 
     def stepped(self, step: Step, frames: Iterable[tuple[float, State]]) -> None:
         """Write down why an action was chosen, every frame of it, and what it did."""
@@ -102,6 +108,18 @@ class RerunRecorder(Observer):
         series.log_beginning(stream)
         self._say(stream, line, "INFO")
         self._log_motion(stream, Frames.gather(np.zeros(1), [initial], self._bodies.parked))
+
+    def _show_tried(self, stream: Stream, tree: ExploredTree) -> None:
+        """The path on which a search got farthest, as if it were carried out; objects move at the end of each action."""
+        tried = farthest_path(tree)
+        for step, closed in tried:
+            self._actions += 1
+            stream.at(self._seconds, self._actions)
+            self._show_decision(stream, step)
+            self._show_frames(stream, step, ())
+            stream.at(self._seconds, self._actions)
+            self._say(stream, narration.tried_line(step, self._scene, self._actions, closed), "WARN")
+            self._show_page(stream, step, done=True)
 
     def _show_decision(self, stream: Stream, step: Step) -> None:
         decision_entities.log_decision(stream, self._scene, step)
@@ -151,7 +169,7 @@ class RerunRecorder(Observer):
         stream.put(PAGE, rr.TextDocument(page, media_type="text/markdown"))
 
     def _say(self, stream: Stream, line: str, level: str) -> None:
-        color = palette.CHOSEN if level == "INFO" else palette.TOPPLED
+        color = None if level == "INFO" else palette.RED_INK  # without one, the viewer takes what its theme writes in
         stream.put(LOG, rr.TextLog(line, level=level, color=color))
 
 

@@ -29,13 +29,13 @@ PLANNING = {
 def log_styles(stream: Stream) -> None:
     """Names, colours and shapes of all series."""
     after, before = InterpolationMode.StepAfter, InterpolationMode.StepBefore
-    stream.keep(OBSTACLES, _line("obstacles in the corridor", palette.COMPONENTS[0], after))
-    stream.keep(FORCE, _line("largest force (N)", palette.COMPONENTS[3], before))
-    stream.keep(TARGET, _line("target displaced", palette.TARGET, InterpolationMode.Linear))
-    stream.keep(DEVIATION, _line("deviation from the plan", palette.COMPONENTS[1], before))
-    stream.keep(CHOSEN_RADIUS, _line("chosen", palette.SWEEP, after))
-    stream.keep(PERSISTENT_RADII, _points("persistent", palette.PERSISTENT))
-    for (entity, name), color in zip(PLANNING.items(), palette.COMPONENTS, strict=False):
+    stream.keep(OBSTACLES, _line("obstacles in the corridor", palette.BLUE_INK, after))
+    stream.keep(FORCE, _line("largest force (N)", palette.PINK_INK, before))
+    stream.keep(TARGET, _line("target displaced", palette.AMBER_INK, InterpolationMode.Linear))
+    stream.keep(DEVIATION, _line("deviation from the plan", palette.VIOLET_INK, before))
+    stream.keep(CHOSEN_RADIUS, _line("chosen", palette.GREEN_INK, after))
+    stream.keep(PERSISTENT_RADII, _points("persistent", palette.BLUE_INK))
+    for (entity, name), color in zip(PLANNING.items(), palette.INKS, strict=False):
         stream.keep(entity, _points(name, color))
 
 

@@ -60,7 +60,7 @@ def _side_names(shelf: Shelf) -> rr.Points2D:
     return rr.Points2D(
         places,
         radii=0.0,
-        colors=palette.CAPTION,
+        colors=palette.TEXT,
         labels=["north", "south", "mouth"],
         show_labels=True,
     )

@@ -13,6 +13,7 @@ from phframe.recorders import palette
 from phframe.recorders.arm_bodies import ArmBodies
 from phframe.recorders.bodies import Body, Piece, Primitive
 from phframe.recorders.coloring import object_color
+from phframe.recorders.object_solids import primitive_of
 from phframe.recorders.shelf_look import drawn_board, drawn_walls
 
 EDGE = 0.0015
@@ -40,9 +41,8 @@ class Stage:
         _set_light(spec, scene.shelf, width, height)
         _add_shelf(spec, scene.shelf)
         for row, item in enumerate(scene.objects):
-            size = [item.shape.radius, item.shape.height / 2.0, 0.0]
-            geom = _add_body(spec, _object(row)).add_geom(name=_object(row), type=mujoco.mjtGeom.mjGEOM_CYLINDER)
-            geom.size = size
+            piece = Piece("", primitive_of(item.shape), palette.OBJECT)
+            _add_piece(spec, _add_body(spec, _object(row)), _object(row), piece)
         for body in bodies.bodies:
             _add_arm_part(spec, body)
         self._scene = scene
@@ -131,13 +131,13 @@ def _add_piece(spec: Any, part: Any, name: str, piece: Piece) -> None:
     shape, kinds = piece.shape, mujoco.mjtGeom
     if isinstance(shape, Primitive):
         kind = {"box": kinds.mjGEOM_BOX, "cylinder": kinds.mjGEOM_CYLINDER, "sphere": kinds.mjGEOM_SPHERE}[shape.kind]
-        geom = part.add_geom(type=kind, pos=shape.pose[:3], quat=shape.pose[3:])
+        geom = part.add_geom(name=name, type=kind, pos=shape.pose[:3], quat=shape.pose[3:])
         geom.size = _half_size(shape)
     else:
         # Of a shell, since a surface need not be closed; nothing is weighed here.
         mesh = spec.add_mesh(name=name, inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL)
         mesh.uservert, mesh.userface = shape.vertices.ravel(), shape.triangles.ravel()
-        geom = part.add_geom(type=kinds.mjGEOM_MESH, meshname=name)
+        geom = part.add_geom(name=name, type=kinds.mjGEOM_MESH, meshname=name)
     geom.contype = geom.conaffinity = 0
     geom.rgba = _rgba(piece.color)
 

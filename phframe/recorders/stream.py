@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
+import rerun_bindings
 
 from phframe.core import FloatArray, InputError
 
+APPLICATION = "phframe"
 TIME = "sim_time"
 ACTION = "action"
 
@@ -30,16 +32,17 @@ class Stream:
     """
 
     def __init__(self, path: Path, name: str, blueprint: rrb.Blueprint, properties: Mapping[str, str]) -> None:
-        self._recording = rr.RecordingStream("phframe")
-        self._recording.set_log_time_enabled(False)
-        self._recording.set_log_tick_enabled(False)
         try:
-            self._recording.save(path, blueprint)
-        except (OSError, RuntimeError) as error:
-            why = str(error).partition(", path:")[0]
+            path.open("wb").close()
+        except (OSError, ValueError) as error:
+            why = getattr(error, "strerror", None) or error
             raise InputError(
                 f"cannot write the recording {path}: {why}. Give a file in a directory that exists."
             ) from None
+        self._recording = rr.RecordingStream(APPLICATION)
+        self._recording.set_log_time_enabled(False)
+        self._recording.set_log_tick_enabled(False)
+        _save(self._recording, path, blueprint)
         self._recording.send_recording_name(name)
         self._recording.send_property("setup", rr.AnyValues(drop_untyped_nones=True, **properties))
 
@@ -67,5 +70,23 @@ class Stream:
         self._recording.flush()
 
     def close(self) -> None:
-        """Write the rest and end the file. May be called twice."""
+        """Write the rest and end the file, and the threads that wrote it. Nothing can be put after that."""
         self._recording.disconnect()
+        del self._recording
+        rerun_bindings.flush_and_cleanup_orphaned_recordings()  # else Rerun keeps the threads of what nobody refers to
+
+
+def _save(recording: rr.RecordingStream, path: Path, blueprint: rrb.Blueprint) -> None:
+    """What ``recording.save(path, blueprint)`` does, which never lets go of the stream it makes for the blueprint.
+
+    The blueprint's sink in memory and its stream refer to each other; to disconnect the stream parts them.
+    """
+    native = rerun_bindings.new_blueprint(
+        application_id=APPLICATION, make_default=False, make_thread_default=False, default_enabled=True
+    )
+    stream = rr.RecordingStream._from_native(native)
+    stream.set_time("blueprint", sequence=0)
+    blueprint._log_to_stream(stream)
+    memory = stream.memory_recording().storage
+    rerun_bindings.save(path=str(path), default_blueprint=memory, recording=recording.to_native())
+    stream.disconnect()

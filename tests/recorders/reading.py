@@ -41,6 +41,10 @@ class Recording:
         assert len(values) == 1, f"{entity} has {len(values)} constant values of {component}"
         return values[0]
 
+    def is_constant(self, entity: str, component: str) -> bool:
+        """Whether something holds at all times: it would hide what is written over time."""
+        return any(_values(batch, component) for batch in self._batches(entity, static=True))
+
     def _batches(self, entity: str, *, static: bool) -> list[Any]:
         return [c.to_record_batch() for c in self._chunks if c.entity_path == entity and c.is_static is static]
 

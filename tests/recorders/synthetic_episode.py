@@ -9,6 +9,7 @@ import numpy as np
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.core import (
+    ROOT,
     Action,
     ActionKind,
     ArmState,
@@ -28,10 +29,12 @@ from phframe.core import (
     RunSpec,
     Scene,
     SceneObject,
+    SearchTree,
     Shelf,
     State,
     Status,
     Step,
+    Transition,
     planar_pose,
     time_path,
 )
@@ -82,16 +85,27 @@ def hand_made() -> Recorded:
     return Recorded(episode, mounted(), tuple(tuple(_frames(step)) for step in steps))
 
 
+def _plan(start: State, steps: tuple[Step, ...], cost: Cost) -> Plan:
+    expected = [(s.action, s.expected, s.decision) for s in steps if s.expected is not None]
+    return replace(Plan.of(Status.RETRIEVED, "", start, expected), cost=cost)
+
+
+def failed_plan() -> Plan:
+    """Of four pushes: two in a row, then nothing more that moves anything, and one that was not gone on from."""
+    steps = hand_made().episode.steps
+    tree = SearchTree(steps[0].before)
+    ends = [Transition(step.after, step.motion) for step in steps]
+    first = tree.child(ROOT, steps[0].action, ends[0], steps[0].decision, value=-1.0)
+    tree.child(ROOT, steps[1].action, ends[1], steps[1].decision, closed="something spilled")
+    second = tree.child(first, steps[1].action, ends[1], steps[1].decision)
+    tree.child(second, steps[0].action, replace(ends[1], state=steps[1].after), closed="nothing moved")
+    return Plan(Status.FAILED, "no sweep fits", tree.explored(second))
+
+
 def mounted(*, by_joints: bool = False) -> MountedArm:
     """The planar arm: two fingers, a palm and a link."""
     arm = PlanarArm(PlanarArmOptions())
     return MountedArm(arm, arm.default_base_pose(SCENE.shelf), by_joints)
-
-
-def _plan(start: State, steps: tuple[Step, ...], cost: Cost) -> Plan:
-    """One that expected what came of it."""
-    made = [(step.action, step.after, step.decision) for step in steps]
-    return replace(Plan.of(Status.RETRIEVED, "", start, made), cost=cost)
 
 
 def _first_decision() -> PushDecision:
@@ -140,8 +154,9 @@ def _grasp(before: State, after: State) -> Step:
     path = GripperPath(poses, (Phase.REACH, Phase.GRASP, Phase.WITHDRAW), rules, "mug")
     action = Action("grasp mug", path, ("mug",), ActionKind.GRASP)
     motion = Motion(4.0, wall_contacts=(Contact(3.9, "north wall", Phase.WITHDRAW),), largest_force=3.0)
-    decision = PushDecision(corridor=CORRIDOR)
-    return Step(action, time_path(path, 0.0, 60.0), before, after, after, motion, decision, 1)
+    return Step(
+        action, time_path(action.path, 0.0, 60.0), before, after, after, motion, PushDecision(corridor=CORRIDOR), 1
+    )
 
 
 def _moved(

@@ -22,8 +22,9 @@ def test_page_tells_the_decision_and_afterwards_the_outcome() -> None:
 def test_angled_corridor_says_along_which_wall() -> None:
     step = hand_made().episode.steps[0]
     angled = Corridor(np.zeros(2), np.deg2rad(31.0), 0.0, 0.12, 0.0, 0.4, "north")
-    decision = replace(PushDecision.of(step.decision), corridor=angled)
-    page = narration.decision_page(replace(step, decision=decision), SCENE, 1, False)
+    page = narration.decision_page(
+        replace(step, decision=replace(PushDecision.of(step.decision), corridor=angled)), SCENE, 1, False
+    )
     assert "along the north wall, 31°, 240 mm wide" in page
 
 
@@ -32,7 +33,7 @@ def test_stalled_and_stopped_are_told_and_go_wrong() -> None:
     assert not narration.went_wrong(step, SCENE)
     for motion, words in (
         (Motion(1.0, stalled=True), "stalled at the force limit"),
-        (Motion(1.0, stopped=StopReason(StopCause.WALL, "back wall")), "stopped: contact with the back wall"),
+        (Motion(1.0, stopped=StopReason(StopCause.WALL, "north wall")), "stopped: contact with the north wall"),
     ):
         stuck = replace(step, motion=motion)
         assert narration.went_wrong(stuck, SCENE)

@@ -13,12 +13,24 @@ pytest.importorskip("rerun")
 
 import rerun as rr
 
-from phframe.core import Condition, InputError, State
-from phframe.pushing import PushDecision
+from phframe.core import (
+    ROOT,
+    Condition,
+    Decision,
+    FloatArray,
+    InputError,
+    SearchTree,
+    Shape,
+    State,
+    Transition,
+    UnknownShapeError,
+)
 from phframe.recorders import palette
+from phframe.recorders.object_solids import disc_radius, primitive_of
 from phframe.recorders.rerun_ import RerunRecorder
+from phframe.recorders.tree_entities import MOST_SHOWN, layout, omitted_label
 from tests.recorders.reading import Recording
-from tests.recorders.synthetic_episode import SCENE, SPEC, Recorded, hand_made, mounted
+from tests.recorders.synthetic_episode import SCENE, SPEC, Recorded, failed_plan, hand_made, mounted
 
 pytestmark = pytest.mark.needs_rerun
 
@@ -143,6 +155,7 @@ def test_members_take_the_colour_of_their_component(recording: Recording) -> Non
     assert during["object_3"] == packed(second)
     assert during["object_4"] == packed(palette.OBJECT)
     assert during["mug"] == packed(palette.TARGET)
+    assert not any(recording.is_constant(f"/world/objects/{i}", "colors") for i in SCENE.ids)
 
 
 def test_what_topples_turns_red_when_it_does(recording: Recording, made: Recorded) -> None:
@@ -221,7 +234,7 @@ def test_setup_is_kept_with_the_recording(recording: Recording) -> None:
 
 
 def test_names_in_discs_are_short(recording: Recording) -> None:
-    assert recording.constant("/top/objects", "labels") == ["1", "2", "3", "4", "target"]
+    assert recording.constant("/top/names", "labels") == ["1", "2", "3", "4", "target"]
 
 
 def test_interrupted_action_keeps_the_frames_seen(made: Recorded, tmp_path: Path) -> None:
@@ -268,6 +281,23 @@ def test_unwritable_path_is_a_clear_error(made: Recorded, tmp_path: Path) -> Non
     recorder.close()
 
 
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="threads are counted as Linux lists them")
+def test_no_thread_is_left_behind(made: Recorded, tmp_path: Path) -> None:
+    def threads() -> int:
+        return sum(1 for _ in Path("/proc/self/task").iterdir())
+
+    def fail() -> None:
+        with pytest.raises(InputError):
+            record(made, tmp_path / "nowhere" / "episode.rrd")
+
+    record(made, tmp_path / "first.rrd")  # which starts the threads that all recordings share
+    before = threads()
+    for number in range(5):
+        record(made, tmp_path / f"{number}.rrd")
+        fail()
+    assert threads() <= before
+
+
 def test_no_global_recording_is_touched(made: Recorded, tmp_path: Path) -> None:
     record(made, tmp_path / "one.rrd")
     assert rr.get_global_data_recording() is None
@@ -276,10 +306,7 @@ def test_no_global_recording_is_touched(made: Recorded, tmp_path: Path) -> None:
 
 def test_decision_without_anything_and_no_frames(made: Recorded, tmp_path: Path) -> None:
     step = made.episode.steps[0]
-    decision = PushDecision.of(step.decision)
-    bare = replace(
-        step, decision=replace(decision, corridor=None, diagram=None, labels=None, rectangle=None, radius=None)
-    )
+    bare = replace(step, decision=Decision("on a whim"))
     recorder = RerunRecorder(tmp_path / "bare.rrd")
     recorder.begin(SCENE, SPEC, made.arm)
     recorder.stepped(bare, ())
@@ -312,3 +339,60 @@ def test_links_move_joint_by_joint_where_the_states_have_joints(made: Recorded, 
     for time, arm_state in compared:
         assert arm_state is not None
         np.testing.assert_allclose(written[round(time, 6)], [*arm_state.gripper[:2], 0.06], atol=1e-6)
+
+
+def test_a_plan_that_failed_shows_its_tree_and_where_it_got_farthest(made: Recorded, tmp_path: Path) -> None:
+    recorder, plan = RerunRecorder(tmp_path / "failed.rrd"), failed_plan()
+    recorder.begin(SCENE, SPEC, made.arm)
+    recorder.planned(plan)
+    recorder.finished(replace(made.episode, status=plan.status, reason=plan.reason, plans=(plan,), steps=()))
+    recorder.close()
+    recording = Recording(recorder.path)
+    north, south = "sweep north: object_1,", "sweep south: object_3"
+    (labels,) = [value for _, _, value in recording.rows("/search/tree", "labels")]
+    assert [text.split("\n")[0] for text in labels] == ["start", north, south, south, north]
+    assert "value -1" in labels[1]
+    assert labels[2].endswith("something spilled")
+    (colors,) = [value for _, _, value in recording.rows("/search/tree", "colors")]
+    chosen, closed = packed(palette.GREEN_INK), packed(palette.RED_INK)
+    assert colors == [chosen, chosen, closed, chosen, closed]
+    (edges,) = [value for _, _, value in recording.rows("/search/tree", "edges")]
+    assert [tuple(edge.values()) for edge in edges] == [("0", "1"), ("0", "2"), ("1", "3"), ("3", "4")]
+    log = [value[0] for _, _, value in recording.rows("/story/log", "text")]
+    assert any("3. only simulated" in line and "given up: nothing moved" in line for line in log)
+    for item, pose in zip(SCENE.objects, plan.expected[-1].poses, strict=True):
+        *_, (_, action, last) = recording.rows(f"/world/objects/{item.id}", "translation")
+        np.testing.assert_allclose(last[0], pose[:3], atol=1e-6)
+        assert action > 0 or item.id in ("object_4", "mug")
+    assert {action for _, action, _ in recording.rows("/top/decision/path", "strips")} == {1, 2, 3}
+
+
+def test_of_a_large_tree_a_part_is_drawn_and_the_rest_counted(made: Recorded) -> None:
+    step, tree = made.episode.steps[0], SearchTree(SCENE.initial_state())
+    for _ in range(300):
+        tree.child(ROOT, step.action, Transition(step.after, step.motion), closed="nothing moved")
+    shown = tree.explored(7).summarised(MOST_SHOWN)
+    assert omitted_label(shown).replace("\n", " ") == f"{301 - MOST_SHOWN} more: {301 - MOST_SHOWN} nothing moved"
+    at = layout(shown.nodes)
+    assert len(np.unique(at, axis=0)) == MOST_SHOWN, "no node hides another"
+
+
+class Pyramid(Shape):
+    kind, height = "pyramid", 0.1
+    bounding_radius = area = 0.04
+    outline = np.zeros((4, 2))
+
+    def support(self, direction: FloatArray) -> float:
+        return 0.04
+
+    def inertia(self, mass: float) -> FloatArray:
+        return np.ones(3)
+
+    def figures(self) -> dict[str, float]:
+        return {"height": self.height}
+
+
+def test_a_shape_that_is_not_known_is_an_error() -> None:
+    for draw in (primitive_of, disc_radius):
+        with pytest.raises(UnknownShapeError, match="the recording has no primitive for the shape 'pyramid'"):
+            draw(Pyramid())

@@ -22,7 +22,7 @@ from phframe.core import BasePose, Condition, InputError, LinkMesh, State, Step
 from phframe.recorders import opengl, palette
 from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.coloring import object_color
-from phframe.recorders.film import FORMATS, Film, Format
+from phframe.recorders.film import FORMATS, Film, VideoFormat
 from phframe.recorders.frames import Frames
 from phframe.recorders.offscreen import Offscreen, Picture
 from phframe.recorders.stage import Stage, camera
@@ -234,7 +234,7 @@ def test_a_file_that_cannot_be_is_refused_at_once(name: str, why: str, tmp_path:
 @pytest.mark.parametrize("codec", ["no-such-codec", "gif"])
 def test_a_codec_that_is_not_there_or_refuses_is_one_line(codec: str, tmp_path: Path) -> None:
     def write() -> None:
-        with closing(Film(tmp_path / "x.mp4", Format("mp4", codec, 64, 48, 10))) as film:
+        with closing(Film(tmp_path / "x.mp4", VideoFormat("mp4", codec, 64, 48, 10))) as film:
             film.add(np.zeros((48, 64, 3), dtype=np.uint8))
 
     with pytest.raises(InputError, match="cannot write the video"):

@@ -1,0 +1,186 @@
+"""Screenshot of a recording in Rerun's web viewer, by headless Chromium, driven over the DevTools protocol.
+
+``python -m docs.screenshot recording.rrd picture.png --theme light --at 0.3``
+"""
+
+from __future__ import annotations
+
+import argparse
+import base64
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+FLAGS = (
+    *("--headless", "--no-sandbox", "--no-first-run", "--disable-quic", "--disable-sync", "--disable-component-update"),
+    *("--disable-background-networking", "--remote-debugging-pipe", "--ignore-gpu-blocklist"),
+    *("--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
+)
+"""Alone with the page, draw by software, listen on two pipes."""
+WIDTH, HEIGHT = 1760, 1044
+TIMELINE = 0.165, 0.88
+"""Where the collapsed time panel's line begins and ends, in fractions of the width."""
+DRAWN, STEADY = 40, 5
+"""Seconds: before the viewer has drawn in software, and between two looks."""
+LOOKS, MOST = 3, 40
+"""How many looks must see the same, and after how many it is given up."""
+TOP = 36
+"""Height of the viewer's own bar, which is cut off (pixels)."""
+CLIP = {"x": 0, "y": TOP, "width": WIDTH, "height": HEIGHT - TOP, "scale": 1}
+
+
+def find_chromium() -> str | None:
+    """The browser's executable; None: there is none."""
+    return next(filter(None, map(shutil.which, CHROMIUM)), None)
+
+
+def take(recording: Path, picture: Path, theme: str = "dark", at: float = 0.0) -> None:
+    """Photograph a recording.
+
+    Args:
+        recording: The ``.rrd`` file.
+        picture: The ``.png`` file; replaced.
+        theme: ``dark`` or ``light``.
+        at: The moment, as a fraction of the recording's time.
+
+    Raises:
+        RuntimeError: If there is no Chromium, or it does not come to rest.
+    """
+    browser = find_chromium()
+    if browser is None:
+        raise RuntimeError(f"no Chromium: none of {', '.join(CHROMIUM)} is installed")
+    with _served(recording) as address, _Browser(browser) as page:
+        page.open(f"{address}&renderer=webgl&hide_welcome_screen=1&theme={theme}")
+        time.sleep(DRAWN)
+        low, high = TIMELINE
+        picture.write_bytes(page.at_rest((WIDTH * (low + at * (high - low)), HEIGHT - 15.0)))
+
+
+@contextmanager
+def _served(recording: Path) -> Iterator[str]:
+    """The recording behind a web server; its address."""
+    web, data = _free_port(), _free_port()
+    command = [sys.executable, "-m", "rerun", "--serve-web", "--web-viewer-port", str(web), "--port", str(data)]
+    server = subprocess.Popen(
+        [*command, str(recording)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+    )
+    try:
+        _await_port(web)
+        yield f"http://127.0.0.1:{web}/?url=rerun%2Bhttp://127.0.0.1:{data}/proxy"
+    finally:
+        os.killpg(server.pid, signal.SIGTERM)  # the module starts the server as a process of its own
+        server.wait()
+
+
+def _free_port() -> int:
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return int(one.getsockname()[1])
+
+
+def _await_port(port: int) -> None:
+    for _ in range(300):
+        with socket.socket() as one:
+            if one.connect_ex(("127.0.0.1", port)) == 0:
+                return
+        time.sleep(0.1)
+    raise RuntimeError("the web viewer does not start")
+
+
+class _Browser:
+    """One page of Chromium, told what to do over two pipes (descriptors 3 and 4 of the browser)."""
+
+    def __init__(self, executable: str) -> None:
+        self._profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        (theirs_in, self._out), (self._in, theirs_out) = os.pipe(), os.pipe()
+        command = [executable, *FLAGS, f"--user-data-dir={self._profile.name}", f"--window-size={WIDTH},{HEIGHT}"]
+        # The shell moves both pipes to where the browser looks for them.
+        script = f'exec "$@" 3<&{theirs_in} 4>&{theirs_out}'
+        self._process = subprocess.Popen(
+            ["bash", "-c", script, "bash", *command, "about:blank"],
+            pass_fds=(theirs_in, theirs_out),
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(theirs_in)
+        os.close(theirs_out)
+        self._number, self._unread, self._session = 0, b"", ""
+
+    def __enter__(self) -> _Browser:
+        target = self._do("Target.createTarget", url="about:blank")["targetId"]
+        self._session = self._do("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._process.terminate()
+        self._process.wait()
+        os.close(self._in)
+        os.close(self._out)
+        self._profile.cleanup()
+
+    def open(self, address: str) -> None:
+        """Go to an address."""
+        self._do("Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, deviceScaleFactor=1, mobile=False)
+        self._do("Page.navigate", url=address)
+
+    def click(self, x: float, y: float) -> None:
+        """With the left button, at pixels from the top left."""
+        for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
+            self._do("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+        self._do("Input.dispatchMouseEvent", type="mouseMoved", x=WIDTH / 2, y=2)
+
+    def at_rest(self, moment: tuple[float, float]) -> bytes:
+        """The picture (PNG) after a click on the timeline, which also pauses, once several looks in a row see the same.
+
+        Raises:
+            RuntimeError: If it goes on changing.
+        """
+        seen = [b""] * LOOKS
+        for _ in range(MOST):
+            self.click(*moment)  # again and again: at first there may be no timeline yet
+            time.sleep(STEADY)
+            seen = [*seen[1:], base64.b64decode(self._do("Page.captureScreenshot", format="png", clip=CLIP)["data"])]
+            if len(set(seen)) == 1:
+                return seen[0]
+        raise RuntimeError("the viewer does not come to rest")
+
+    def _do(self, method: str, **parameters: Any) -> Any:
+        self._number += 1
+        message = {"id": self._number, "method": method, "params": parameters}
+        if self._session:
+            message["sessionId"] = self._session
+        os.write(self._out, json.dumps(message).encode() + b"\0")
+        while True:
+            answer = self._read()
+            if answer.get("id") == self._number:
+                if "error" in answer:
+                    raise RuntimeError(f"{method}: {answer['error']}")
+                return answer["result"]
+
+    def _read(self) -> Any:
+        while b"\0" not in self._unread:
+            more = os.read(self._in, 1 << 20)
+            if not more:
+                raise RuntimeError("Chromium has ended")
+            self._unread += more
+        message, _, self._unread = self._unread.partition(b"\0")
+        return json.loads(message)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("recording", type=Path)
+    parser.add_argument("picture", type=Path)
+    parser.add_argument("--theme", choices=["dark", "light"], default="dark")
+    parser.add_argument("--at", type=float, default=0.0)
+    take(**vars(parser.parse_args()))
