@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -140,10 +141,12 @@ def test_a_backend_that_drives_joints_needs_a_motion_planner(monkeypatch: pytest
     from phframe.backends.pymunk_.physics import PymunkPhysics
     from phframe.core import JointTrajectory
 
+    class Immovable(PlanarArm):
+        motion_planner: Any = None
+
     monkeypatch.setattr(PymunkPhysics, "executes", JointTrajectory)
-    monkeypatch.delattr(PlanarArm, "motion_planner")
     with pytest.raises(IncompatibleError, match="no motion planner"):
-        PlanningWorld(WorldSpec(BASIC))
+        PlanningWorld(WorldSpec(BASIC, arm=Immovable))
 
 
 SERVING = """
