@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from phframe.backends.articulated.engine import EngineContact, Vector
+from phframe.backends.articulated.engine import ContactPair, EngineContact, Vector
 from phframe.backends.articulated.world import ArticulatedWorld
 from phframe.backends.contract import Touch
 
@@ -29,7 +29,7 @@ class TouchLog:
     def __init__(self, world: ArticulatedWorld) -> None:
         self._world = world
         self.found: list[Touch] = []
-        self._known: set[tuple[str, str, bool]] = set()
+        self._known: set[ContactPair] = set()
         self._count, self._read_at, self._told = 0.0, 0.0, 0
         self._last_grip = self._held_at = 0.0
 
@@ -62,11 +62,10 @@ class TouchLog:
     def _read(self, time: float, contacts: Sequence[EngineContact]) -> None:
         """Note what a part of the arm touches for the first time in this phase."""
         self._read_at, known = time, self._known
-        for contact in contacts:
-            touch = contact[:3]
-            if touch not in known:
-                known.add(touch)
-                self.found.append((time, *touch))
+        for pair, _ in contacts:
+            if pair not in known:
+                known.add(pair)
+                self.found.append((time, pair.part, pair.body, pair.wall))
 
     def _hold(self, time: float, gripped: int | None) -> None:
         """An object is held from when it is squeezed until it has been out of the fingers' grip for a while."""
@@ -82,7 +81,7 @@ class TouchLog:
 def _gripped(contacts: Sequence[EngineContact]) -> int | None:
     """Row of the object that both fingers press from opposite sides, if there is one."""
     pushes: dict[int, dict[int, Vector]] = {}
-    for _, _, _, row, finger, (x, y, z) in contacts:
+    for (_, _, _, row, finger), (x, y, z) in contacts:
         if row is not None and finger:
             fingers = pushes.setdefault(row, {})
             fx, fy, fz = fingers.get(finger, (0.0, 0.0, 0.0))
