@@ -36,10 +36,11 @@ class TouchLog:
     def look(self, time: float, count: float) -> None:
         """Write down what the arm touches at a time (s), which has so many contacts."""
         read = count > self._count or (count and time - self._read_at >= REREAD)
-        grip = time - self._held_at >= REREAD and (self._world.held is not None or count)
+        world = self._world
+        grip = time - self._held_at >= REREAD and (world.held is not None or (count and world.squeeze > SQUEEZE))
         self._count = count
         if read or grip:
-            contacts = list(self._world.engine.contacts())
+            contacts = list(world.engine.contacts())
             if read:
                 self._read(time, contacts)
             if grip:
@@ -70,7 +71,7 @@ class TouchLog:
     def _hold(self, time: float, gripped: int | None) -> None:
         """An object is held from when it is squeezed until it has been out of the fingers' grip for a while."""
         world, self._held_at = self._world, time
-        if gripped is not None and (world.held is not None or world.squeeze > SQUEEZE):
+        if gripped is not None:
             self._last_grip = time
             if world.held != gripped:
                 world.hold(gripped)
