@@ -7,6 +7,8 @@ TEST_3D_EXTRAS ?= dev,mujoco,pybullet,ompl,baxter,meshes,video
 DEMO_EXTRAS ?= rerun
 BENCH_EXTRAS ?= dev,rerun,mujoco,pybullet,ompl,baxter
 SCENE ?= vieira/basic
+# What is tested with phframe: plugins as their users have them, installed.
+PLUGINS := plugins/phframe-random-push
 3D := needs_mujoco or needs_pybullet or needs_ompl or needs_baxter or needs_meshes or needs_video
 PYTEST_FLAGS ?= --numprocesses=auto --benchmark-disable
 
@@ -21,6 +23,9 @@ unexport PYTHONPATH PYTHONHOME PIP_USER PIP_TARGET PIP_PREFIX PIP_REQUIRE_VIRTUA
 # PyBullet has wheels for this alone; elsewhere its tests are skipped.
 has_pybullet = __import__('sysconfig').get_platform() == 'linux-x86_64' and __import__('sys').version_info[:2] == (3, 11)
 
+# An error if one is missing: its tests would be skipped.
+has_plugins = import importlib.metadata as m; [m.version(name) for name in '$(notdir $(PLUGINS))'.split()]
+
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help demo test test-3d lint bench clean interpreter FORCE
@@ -34,6 +39,7 @@ demo: $(call stamp,$(DEMO_EXTRAS)) ## solve a shelf scene and record it for the 
 
 # Whatever is installed, the libraries for 3D are hidden: what is tested here needs none of them.
 test: $(call stamp,$(TEST_EXTRAS)) ## run the tests of all that needs no 3D engine
+	@$(VENV)/bin/python -c "$(has_plugins)"
 	@$(VENV)/bin/python -m pytest -p tests.without_3d $(PYTEST_FLAGS) -m 'not ($(3D))'
 
 test-3d: $(call stamp,$(TEST_3D_EXTRAS)) ## run the tests of the 3D engines and of Baxter
@@ -64,10 +70,11 @@ ifneq ($(usable),$(CURDIR))
     remake := FORCE
 endif
 
-$(VENV)/.ready-%: $(VENV)/.home pyproject.toml constraints.txt
+$(VENV)/.ready-%: $(VENV)/.home pyproject.toml constraints.txt $(addsuffix /pyproject.toml,$(PLUGINS))
 	@echo 'Installing phframe[$(subst -,$(comma),$*)] into $(VENV): up to 1.5 GB, a minute or two the first time.'
 	@touch $(VENV)/.installing
-	@$(PIP) install $(if $(CI),--quiet) --constraint constraints.txt --editable '.[$(subst -,$(comma),$*)]'
+	@$(PIP) install $(if $(CI),--quiet) --constraint constraints.txt --editable '.[$(subst -,$(comma),$*)]' \
+	    $(if $(findstring dev,$*),$(addprefix --editable ./,$(PLUGINS)))
 	@rm -f $(VENV)/.installing
 	@touch $@
 

@@ -1,8 +1,8 @@
 """phframe plans how a robot arm pushes through clutter, with persistent homology.
 
-``phframe.solve`` retrieves a target from a shelf; everything else is in the packages. Importing this is cheap: what it
-names is loaded when it is first used. ``api_version`` is that of what plugins build on: ``phframe.core``, ``.pushing``,
-``.registry``, ``.testing``, ``.runtime.observer`` and ``phframe.solve``.
+``phframe.solve`` retrieves a target from a shelf, ``phframe.run`` carries out a ``RunSpec``; everything else is in the
+packages. Importing this is cheap: what it names is loaded when it is first used. ``api_version`` is that of what plugins
+build on: ``phframe.core``, ``.pushing``, ``.registry``, ``.testing``, ``.runtime.observer``, ``phframe.run`` and ``phframe.solve``.
 """
 
 from __future__ import annotations
@@ -12,16 +12,18 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from phframe.registry.extension import API_VERSION as api_version  # noqa: N811
     from phframe.runtime.files import load, save
+    from phframe.runtime.run import run
     from phframe.runtime.solve import solve
 
 _LAZY = {
     "api_version": "phframe.registry.extension",
     "load": "phframe.runtime.files",
     "save": "phframe.runtime.files",
+    "run": "phframe.runtime.run",
     "solve": "phframe.runtime.solve",
 }
 
-__all__ = ["api_version", "load", "save", "solve"]
+__all__ = ["api_version", "load", "run", "save", "solve"]
 
 
 def __getattr__(name: str) -> Any:

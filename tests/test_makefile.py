@@ -130,11 +130,11 @@ def test_help_lists_every_target_that_is_meant_for_people(bin_folder: Path) -> N
     assert listed == {"help", "demo", "test", "test-3d", "lint", "bench", "clean"}
 
 
-def recipe(target: str) -> str:
+def recipe(target: str, *options: str) -> str:
     """What `make` would run for a target."""
     make = shutil.which("make")
     assert make is not None
-    command = [make, "--dry-run", "--no-print-directory", "-C", str(ROOT), target]
+    command = [make, "--dry-run", "--no-print-directory", "-C", str(ROOT), *options, target]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
@@ -151,3 +151,16 @@ def test_the_core_is_tested_without_the_libraries_for_3d_and_the_rest_with_all_o
     assert demanded is not None
     assert set(demanded[1].split(", ")) == {"av", "mujoco", "ompl.base", "pinocchio", "toppra", "trimesh"}
     assert "__import__('pybullet')" in rest
+
+
+def test_plugins_are_installed_for_the_tests_and_not_for_the_demonstration() -> None:
+    plugins = sorted(path.parent.relative_to(ROOT).as_posix() for path in ROOT.glob("plugins/*/pyproject.toml"))
+    assert plugins
+    for target in ("test", "test-3d", "lint"):
+        installing = next(
+            line for line in recipe(target, "--always-make").replace("\\\n", "").splitlines() if "--editable" in line
+        )
+        assert "--constraint constraints.txt" in installing
+        assert re.findall(r"--editable \./(\S+)", installing) == plugins
+    assert "plugins" not in recipe("demo", "--always-make")
+    assert all(f"'{Path(plugin).name}'.split()" in recipe("test") for plugin in plugins)

@@ -12,8 +12,6 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from phframe.arms.outlines import gripper_outlines
-from phframe.arms.reach import fraction_served
 from phframe.core import (
     ArmError,
     ArmModel,
@@ -32,10 +30,12 @@ from phframe.core import (
 from phframe.core.value import frozen_floats
 from phframe.motion.options import ArticulatedOptions
 from phframe.motion.pinocchio_ import Kinematics
-from phframe.urdf.description import ArmDescription, Section, TipFrame, read_description
-from phframe.urdf.description_check import check_description
-from phframe.urdf.model import with_frame
-from phframe.urdf.reader import Robot, read_robot
+from phframe.motion.reachability import reachability
+from phframe.urdf.description import ArmDescription, Section, read_description
+from phframe.urdf.driven import driven_robot
+from phframe.urdf.model import Robot
+from phframe.urdf.outlines import gripper_outlines
+from phframe.urdf.writer import robot_urdf
 
 FRONT = 1e-3
 """What begins within this of the fingertips (m) goes in first."""
@@ -49,8 +49,8 @@ class ArticulatedArm(ArmModel[OptionsT]):
     """An arm that is a URDF and a description."""
 
     @abstractmethod
-    def describe(self) -> tuple[ArmDescription, str]:
-        """The description, and the URDF's text.
+    def describe(self) -> tuple[ArmDescription, Robot]:
+        """The description, and the robot as its URDF has it.
 
         Raises:
             InputError: If they cannot be had.
@@ -59,11 +59,20 @@ class ArticulatedArm(ArmModel[OptionsT]):
     @property
     def description(self) -> ArmDescription:
         """What is said of the arm besides its URDF."""
-        return self._checked[0]
+        return self._described[0]
+
+    @property
+    def robot(self) -> Robot:
+        """The robot as it is driven, with the link ``fingertip``.
+
+        Raises:
+            InputError: If description and URDF cannot be had, or do not agree.
+        """
+        return self._described[1]
 
     def urdf(self) -> str:
-        """The robot, with the link ``fingertip``."""
-        return self._checked[1]
+        """The robot as it is driven; meshes are named by absolute paths."""
+        return self._text
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
@@ -89,10 +98,19 @@ class ArticulatedArm(ArmModel[OptionsT]):
 
     @cached_property
     def shape(self) -> ArmShape:
-        """The covers that move with the fingertip, and what is described of the arm behind."""
+        """The collision geometry that moves with the fingertip, and what is described of the arm behind.
+
+        Raises:
+            ArmError: If a finger has none, or nothing of the gripper is at the fingertip.
+        """
         gripper = gripper_outlines(self.robot, self.tip_link, self.description.fingers)
         behind = (outline for section in self.description.behind for outline in _section(section))
         closed = (*gripper, *behind)
+        front = max(float(outline.vertices[:, 0].max()) for outline in gripper)
+        if front <= -FRONT:
+            raise ArmError(
+                f"the gripper's collision geometry ends {-front:.4g} m behind the fingertip: put 'tip' where the fingers end"
+            )
         first = [outline for outline in gripper if outline.vertices[:, 0].max() > -FRONT]
         left = self.fingers.joints[0]
         travel = 2.0 * (left.upper - left.lower)
@@ -124,18 +142,12 @@ class ArticulatedArm(ArmModel[OptionsT]):
         return BasePose(float(x), shelf.width / 2.0 + float(y), -stand.at[2], 0.0 - stand.yaw)
 
     def motion_planner(self, scene: Scene, base_pose: BasePose) -> MotionPlanner[Any]:
-        """Follows paths in the shelf, and plans free ways with OMPL.
+        """Follows paths in the shelf, and plans collision-free joint paths with OMPL.
 
         Raises:
             UnknownNameError: If there is no such planner.
             NotInstalledError: If OMPL or TOPP-RA is not installed.
-            ArmError: If covers are meshes.
         """
-        if self.robot.meshes:
-            raise ArmError(
-                f"the collision shape of link {self.robot.meshes[0]!r} in the URDF is a mesh: to be moved by its joints, "
-                "an arm needs boxes, cylinders or spheres instead"
-            )
         try:
             from phframe.motion.articulated import ArticulatedMotionPlanner
         except ModuleNotFoundError as error:
@@ -146,16 +158,22 @@ class ArticulatedArm(ArmModel[OptionsT]):
             remedy = f'pip install "phframe[baxter]" (wheels for {wheels})'
             raise NotInstalledError(f"motion planning for {type(self).__name__}", library, remedy) from error
 
-        return ArticulatedMotionPlanner(scene, self, base_pose, self.options)
+        return ArticulatedMotionPlanner(
+            scene, self, base_pose, self.options, self.description, self.robot, self.kinematics
+        )
 
     def fraction_served(self, shelf: Shelf, base_pose: BasePose) -> float:
-        """By descent from the pose beside alone."""
-        return fraction_served(
-            shelf,
-            self,
-            base_pose,
-            lambda pose, seed: self.kinematics.descend(pose, self.home if seed is None else seed),
-        )
+        """As ``phframe arm reach`` says it."""
+        return reachability(shelf, self, base_pose).fraction
+
+    def descend(self, pose: FloatArray, seed: FloatArray) -> FloatArray | None:
+        """Joint values ``(dof,)`` for a pose ``(7,)``, downhill from a seed alone, or None."""
+        return self.kinematics.descend(pose, seed)
+
+    @property
+    def seeds(self) -> tuple[FloatArray, ...]:
+        """Home, and the seed configurations of the description."""
+        return (self.home, *(frozen_floats(seed) for seed in self.description.seed_configurations))
 
     @cached_property
     def kinematics(self) -> Kinematics:
@@ -163,18 +181,14 @@ class ArticulatedArm(ArmModel[OptionsT]):
         return Kinematics(self.urdf(), self.description.joints, self.tip_link, self.home)
 
     @cached_property
-    def _checked(self) -> tuple[ArmDescription, str]:
-        """The description and the URDF with the fingertip's link, found to agree."""
-        description, text = self.describe()
-        robot = read_robot(text)
-        text = _with_tip(text, robot, description.tip)
-        check_description(description, robot)
-        return description, text
+    def _described(self) -> tuple[ArmDescription, Robot]:
+        """The description and the robot as it is driven, found to agree."""
+        description, robot = self.describe()
+        return description, driven_robot(description, robot)
 
     @cached_property
-    def robot(self) -> Robot:
-        """The URDF, read."""
-        return read_robot(self.urdf())
+    def _text(self) -> str:
+        return robot_urdf(self.robot)
 
     def _joint_values(self, q: ArrayLike) -> FloatArray:
         values = np.asarray(q, dtype=np.float64)
@@ -199,7 +213,7 @@ class DescribedArm(ArticulatedArm[DescribedArmOptions]):
 
     options_type = DescribedArmOptions
 
-    def describe(self) -> tuple[ArmDescription, str]:
+    def describe(self) -> tuple[ArmDescription, Robot]:
         """What the files say."""
         return read_description(self.options.description)
 
@@ -208,16 +222,6 @@ def _joint(robot: Robot, name: str) -> Joint:
     joint = robot.joint(name).joint
     assert joint is not None, "found by its joint"
     return joint
-
-
-def _with_tip(text: str, robot: Robot, tip: TipFrame | None) -> str:
-    if tip is None:
-        if ArmModel.tip_link not in robot.covers:
-            raise ArmError(f"the URDF has no link {ArmModel.tip_link!r}: say under 'tip' where the fingertip is")
-        return text
-    if tip.link not in robot.covers:
-        raise ArmError(f"the URDF has no link {tip.link!r}; there is: {', '.join(robot.covers)}")
-    return with_frame(text, ArmModel.tip_link, tip.link, tip.at, tip.rpy)
 
 
 def _section(section: Section) -> Iterator[Outline]:

@@ -26,7 +26,8 @@ from phframe.core import (
     yaw_of,
 )
 from phframe.motion.planar import PlanarMotionOptions, PlanarMotionPlanner
-from phframe.urdf.planar import planar_urdf
+from phframe.urdf.planar import planar_robot
+from phframe.urdf.writer import robot_urdf
 
 HEIGHT = 0.06
 """Of the gripper plane above the board (m): half the height of the usual object."""
@@ -119,7 +120,7 @@ class PlanarArm(ArmModel[PlanarArmOptions]):
 
     def urdf(self) -> str:
         """Three joints, a box for each part of the outline, and a sliding joint for each finger."""
-        return planar_urdf("planar", self.joints, self.fingers, self.shape.closed)
+        return robot_urdf(planar_robot("planar", self.joints, self.fingers, self.shape.closed))
 
 
 def _box(part: str, x0: float, x1: float, y0: float, y1: float, side: int = 0) -> Outline:

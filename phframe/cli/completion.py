@@ -24,6 +24,7 @@ planners = _names("planner")
 backends = _names("backend")
 arms = _names("arm")
 topology = _names("topology")
+goals = _names("goal")
 suites = _names("scenes")
 
 
@@ -37,6 +38,11 @@ def scenes(incomplete: str) -> Offer:
 def scenes_and_runs(incomplete: str) -> Offer:
     """Scenes, and the directories of runs."""
     return [*_quietly(_runs, incomplete), *scenes(incomplete)]
+
+
+def runs(incomplete: str) -> Offer:
+    """The directories of runs."""
+    return _quietly(_runs, incomplete)
 
 
 def export_formats(incomplete: str) -> Offer:
@@ -85,12 +91,13 @@ def _scene_files(incomplete: str) -> Offer:
 def _option_keys(context: typer.Context) -> Offer:
     from phframe.cli.option_list import describe
     from phframe.registry import Kind
+    from phframe.registry.from_file import is_file
 
     asked = [(part, context.params.get(part)) for part in PARTS if part != "scenes"]
     asked += [("scenes", suite) for suite, _ in _registered("scenes")]  # which one is not known before Enter
     return [
         (f"{'' if part == 'planner' else f'{part}.'}{each.key}=", each.description)
         for part, spec in asked
-        if spec
+        if spec and not is_file(spec)  # nothing in it is run before Enter
         for each in describe(Kind(part.removeprefix("plan_")), spec).options
     ]

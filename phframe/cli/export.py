@@ -36,7 +36,8 @@ Arm = Annotated[
     typer.Option(
         "--arm",
         metavar="NAME",
-        help="An arm to put beside the scene, for mjcf and urdf-parts: a name ('phframe arms') or ./mine.py:Mine.",
+        help="An arm to put beside the scene, for mjcf and urdf-parts: a name ('phframe arms') or ./mine.py:Mine; for json and csv "
+        "what the episode's arm is, where that is a class in a file.",
         show_default="none",
         autocompletion=completion.arms,
     ),

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from phframe.cli.episodes import read_episode
 from phframe.cli.export_formats import FORMATS, Format
 from phframe.cli.needs import require
 from phframe.cli.output import STANDARD_OUTPUT, Output
-from phframe.cli.run import EPISODE
 from phframe.core import ArmModel, BasePose, Episode, InputError, OptionError, Scene, UnknownNameError
 from phframe.core.paths import user_path
 from phframe.registry import Kind, create
@@ -72,19 +72,8 @@ def _find(wanted: Wanted) -> Scene | Episode:
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror}") from None
     if is_run or wanted.what.endswith(".json"):
-        return _episode(path / EPISODE if is_run else path)
+        return read_episode(path)
     return find_scene(wanted.what, wanted.options["scenes"])
-
-
-def _episode(path: Path) -> Episode:
-    from phframe.runtime.files import load
-
-    if path.name == EPISODE and path.parent.is_dir() and not path.exists():
-        raise InputError(f"the directory {path.parent} holds no {EPISODE}. Name one that 'phframe solve' made.")
-    loaded = load(path)
-    if not isinstance(loaded, Episode):
-        raise InputError(f"{path} is a plan, not an episode: nothing was carried out, so there is nothing to export")
-    return loaded
 
 
 def _form(wanted: Wanted, subject: Scene | Episode) -> Format:
@@ -109,7 +98,7 @@ def _check(wanted: Wanted, subject: Scene | Episode, form: Format) -> None:
         raise InputError(f"{form.name} is a folder of files: name it with --out DIR")
     if wanted.arm is not None and not form.with_arm:
         raise OptionError(f"--arm goes with mjcf and urdf-parts, not with {form.name}")
-    if wanted.options["arm"] and wanted.arm is None:
+    if wanted.options["arm"] and wanted.arm is None and not form.of_episode:
         raise OptionError("there are options of an arm, and no arm. Name it with --arm NAME.")
     if wanted.action is not None and not form.of_episode:
         raise OptionError(f"--action goes with json and csv, not with {form.name}")
@@ -119,7 +108,8 @@ def _trajectories(episode: Episode, wanted: Wanted, form: Format) -> str:
     from phframe.runtime.joint_trajectories import as_csv, as_json, joint_trajectories, refuse_no_joints
 
     refuse_no_joints(episode)
-    arm = create(Kind.ARM, episode.setup.arm, episode.setup.options.get("arm"))
+    options = {**episode.spec.options.get("arm", {}), **wanted.options["arm"]}
+    arm = create(Kind.ARM, wanted.arm or episode.spec.arm, options)
     found = joint_trajectories(episode, arm, wanted.action)
     return as_csv(found) if form.name == "csv" else as_json(episode, found)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from phframe.cli.console import note
 from phframe.cli.needs import require
 from phframe.cli.output import Output
+from phframe.core.paths import path_shown
 from phframe.scenes.importer import to_scene
-from phframe.scenes.wording import path_shown
 from phframe.scenes.writer import scene_to_yaml
 
 

@@ -1,4 +1,4 @@
-"""``phframe scenes | planners | backends | arms | topology``: what there is to choose from."""
+"""``phframe scenes | planners | backends | arms | goals | topology``: what there is to choose from."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ _LISTINGS = {
     "planners": ("planner", "planners", completion.planners, "planners phia"),
     "backends": ("backend", "physics backends", completion.backends, "backends --json"),
     "arms": ("arm", "robot arms", completion.arms, "arms planar"),
+    "goals": ("goal", "goals: what an episode is to achieve", completion.goals, "goals retrieve"),
     "topology": ("topology", "engines that compute persistence diagrams", completion.topology, "topology"),
 }
 """Command: the kind in the registry, what is listed, the completion of names, an example."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from typing import Annotated
 
 import typer
@@ -11,6 +12,7 @@ from phframe.cli.console import emit
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.export import export
 from phframe.cli.group import CommandGroup
+from phframe.cli.replay import replay
 from phframe.cli.solve import solve
 
 app = typer.Typer(
@@ -25,6 +27,7 @@ app.command("solve", epilog="Example: phframe solve papallas/s01 --planner ooa -
     solve
 )
 app.command("export", epilog="Example: phframe export vieira/basic --arm planar --out basic.xml")(export)
+app.command("replay", epilog="Example: phframe replay runs/basic --backend mujoco")(replay)
 listings.add_to(app)
 app.add_typer(arm.app, name="arm")
 app.add_typer(scene.app, name="scene")
@@ -50,5 +53,6 @@ def _version() -> str:
 
 
 def main() -> None:
-    """Entry point of the command; ends the process."""
+    """Entry point of the command; ends the process. Being told to terminate is like Ctrl-C: what was recorded is kept."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     app(prog_name="phframe")

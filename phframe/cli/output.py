@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import shutil
-import tempfile
 from collections.abc import Mapping
-from pathlib import Path
 
 from phframe.cli.console import emit, note
 from phframe.core.errors import InputError
-from phframe.core.paths import user_path
+from phframe.core.files import ThereAlreadyError, check_folder_writable, check_writable, write_file, write_folder
+from phframe.core.paths import path_shown, user_path
 
 STANDARD_OUTPUT = "-"
 
@@ -29,68 +27,24 @@ class Output:
     def __init__(self, asked: str, *, force: bool, folder: bool = False) -> None:
         self._force = force
         self._path = None if asked == STANDARD_OUTPUT else user_path(asked)
-        if self._path is not None:
-            _check(self._path, force=force, folder=folder)
-
-    def write(self, text: str) -> None:
-        """Write the whole file, or nothing."""
         if self._path is None:
-            emit(text.rstrip("\n"))
             return
-        self.write_bytes(text.encode())
+        try:
+            (check_folder_writable if folder else check_writable)(self._path, overwrite=force)
+        except ThereAlreadyError as error:
+            raise InputError(f"{error}: take --force, or another path with --out.") from None
 
-    def write_bytes(self, content: bytes) -> None:
-        """Write the whole file, or nothing."""
-        assert self._path is not None, "bytes are for files"
-        from phframe.runtime.files import write_whole
-
-        write_whole(self._path, content)
-        note(f"wrote {self._path}")
+    def write(self, content: str | bytes) -> None:
+        """Write the whole file, or nothing; to standard output, text."""
+        if self._path is None:
+            assert isinstance(content, str), "bytes are for files"
+            emit(content.rstrip("\n"))
+            return
+        write_file(self._path, content, overwrite=self._force)
+        note(f"wrote {path_shown(self._path)}")
 
     def write_folder(self, files: Mapping[str, str]) -> None:
         """Write a folder of files, given by their paths in it; a new one appears whole or not at all."""
         assert self._path is not None, "a folder has a path"
-        try:
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-            made = Path(tempfile.mkdtemp(dir=self._path.parent, prefix=f".{self._path.name}."))
-            try:
-                _fill(made, files)
-                _put(made, self._path, files)
-            finally:
-                shutil.rmtree(made, ignore_errors=True)
-        except OSError as error:
-            raise InputError(f"cannot write {self._path}: {error.strerror or error}") from None
-        note(f"wrote {len(files)} files into {self._path}")
-
-
-def _check(path: Path, *, force: bool, folder: bool) -> None:
-    try:
-        there, is_folder = path.exists(), path.is_dir()
-        full = is_folder and any(path.iterdir())
-    except (OSError, ValueError) as error:
-        raise InputError(f"cannot write {path}: {getattr(error, 'strerror', None) or error}") from None
-    if there and is_folder is not folder:
-        raise InputError(f"{path} is a {'directory' if is_folder else 'file'}. Name another path with --out.")
-    if (full if folder else there) and not force:
-        what = "is not empty" if folder else "is there already"
-        raise InputError(f"{path} {what}, and nothing is overwritten without --force.")
-
-
-def _fill(folder: Path, files: Mapping[str, str]) -> None:
-    folder.chmod(0o755)
-    for name, text in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", newline="\n")
-
-
-def _put(made: Path, path: Path, files: Mapping[str, str]) -> None:
-    """Move the folder to its place; into one that is in use, file by file."""
-    if not path.exists() or not any(path.iterdir()):
-        if path.exists():
-            path.rmdir()
-        made.rename(path)
-        return
-    for name in files:
-        (path / name).parent.mkdir(parents=True, exist_ok=True)
-        (made / name).replace(path / name)
+        write_folder(self._path, files, overwrite=self._force)
+        note(f"wrote {len(files)} files into {path_shown(self._path)}")

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from phframe.core import Episode, Plan, Scene, Setup, State, Status, Step
+from phframe.core import Episode, Plan, RunSpec, Scene, State, Status, Step
 from phframe.runtime.observer import MountedArm, Observer
+from phframe.runtime.versions import versions_of
 
 
 class PartialEpisode(Observer):
     """Gathers plans and steps as they come."""
 
     def __init__(self) -> None:
-        self._begun: tuple[Scene, Setup] | None = None
+        self._begun: tuple[Scene, RunSpec] | None = None
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
         self._finished: Episode | None = None
 
-    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+    def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """Keep what the episode is about."""
-        self._begun = scene, setup
+        self._begun = scene, spec
 
     def planned(self, plan: Plan) -> None:
         """Keep a plan."""
@@ -37,5 +38,6 @@ class PartialEpisode(Observer):
         """The whole if it is over, else what there is, failed for the reason given; None before it began."""
         if self._finished is not None or self._begun is None:
             return self._finished
-        scene, setup = self._begun
-        return Episode(scene, setup, Status.FAILED, reason, tuple(self._plans), tuple(self._steps))
+        scene, spec = self._begun
+        plans, steps = tuple(self._plans), tuple(self._steps)
+        return Episode(scene, spec, Status.FAILED, reason, plans, steps, versions=versions_of(spec))

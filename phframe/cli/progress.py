@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from threading import Timer
 
 from phframe.cli.console import error_console
-from phframe.core import Episode, Plan, Scene, Setup, State, Step
+from phframe.core import Episode, Plan, RunSpec, Scene, State, Step
 from phframe.runtime.observer import Frames, MountedArm, Observer
 
 AFTER = 1.0
@@ -32,9 +32,9 @@ class Progress(Observer):
         if self._console.is_terminal:
             self._timer.start()
 
-    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+    def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """The first plan is being made."""
-        self._status.update(f"Planning with {setup.planner} for {scene.name}")
+        self._status.update(f"Planning with {spec.name_of('planner')} for {scene.name}")
 
     def planned(self, plan: Plan) -> None:
         """A plan is about to be carried out."""

@@ -9,16 +9,19 @@ from typing import Any
 
 import numpy as np
 
-from phframe.arms.reach import Reachability, reachability
 from phframe.cli.console import emit
 from phframe.cli.needs import require
-from phframe.cli.output import STANDARD_OUTPUT, Output
+from phframe.cli.output import Output
 from phframe.core import BasePose, InputError
+from phframe.core.paths import path_shown
+from phframe.motion.reachability import Reachability, reachability
 from phframe.registry import Kind, create
 from phframe.runtime.scenes import find_scene
 
 FORMAT = 2
 """Of the JSON object."""
+PICTURE = ".png"
+"""How the name of a picture ends."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,16 +53,16 @@ def run(wanted: Wanted) -> None:
     Raises:
         PhframeError: If something asked for cannot be used; nothing was written then.
     """
+    output = _output(wanted)
     scene = find_scene(wanted.scene, wanted.options["scenes"])
     arm = create(Kind.ARM, wanted.arm, wanted.options["arm"])
-    output = _output(wanted)
     own = scene.base_poses.get(wanted.arm) or arm.default_base_pose(scene.shelf)
     base_pose = own if wanted.base_pose is None else BasePose(*wanted.base_pose)
-    reach = reachability(scene, arm, base_pose)
+    reach = reachability(scene.shelf, arm, base_pose)
     if output is not None:
-        from phframe.arms.reach_map import reach_picture
+        from phframe.cli.reach_map import reach_picture
 
-        output.write_bytes(reach_picture(reach, scene, f"{wanted.arm} in {scene.name}"))
+        output.write(reach_picture(reach, scene, f"{wanted.arm} in {scene.name}"))
     fractions = _fractions(wanted.arm, scene.name, base_pose, reach)
     emit(json.dumps(fractions, allow_nan=False) if wanted.as_json else _sentence(fractions))
 
@@ -67,8 +70,10 @@ def run(wanted: Wanted) -> None:
 def _output(wanted: Wanted) -> Output | None:
     if wanted.out is None:
         return None
-    if wanted.out == STANDARD_OUTPUT:
-        raise InputError("a picture does not go to standard output: name a file with --out FILE.png")
+    if not wanted.out.lower().endswith(PICTURE):
+        raise InputError(
+            f"the map is a picture, and {path_shown(wanted.out)!r} is no name of one: give --out FILE{PICTURE}"
+        )
     require("matplotlib", "the map of what an arm reaches", "plots")
     return Output(wanted.out, force=wanted.force)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from phframe.cli.console import note
 from phframe.cli.run_directory import RunDirectory
-from phframe.core import Episode, Plan, Scene, Setup, Step
+from phframe.core import Episode, Plan, RunSpec, Scene, Step
 from phframe.core.errors import NotInstalledError, PluginError
 from phframe.runtime.observer import Frames, MountedArm, Observer
 
@@ -28,16 +28,18 @@ class RunFiles(Observer):
         self._recorder: Observer | None = None
         self.recording: Path | None = None
 
-    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+    def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """Make the directory, and the recording in it.
 
         Raises:
             InputError: If they cannot be written.
         """
-        path = self._directory.make(scene.name, setup.planner)
+        if not self._directory.keep:
+            return
+        path = self._directory.make(scene.name, spec.name_of("planner"))
         if self._recorder_type is not None:
             self._recorder = self._recorder_type(path / RECORDING)
-            self._recorder.begin(scene, setup, arm)
+            self._recorder.begin(scene, spec, arm)
             self.recording = path / RECORDING
 
     def planned(self, plan: Plan) -> None:
@@ -79,9 +81,9 @@ class VideoFile(Observer):
         self._recorder: Observer = load(Kind.RECORDER, "video")(path)
         self._through = through
 
-    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+    def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """Hand it on."""
-        self._recorder.begin(scene, setup, arm)
+        self._recorder.begin(scene, spec, arm)
 
     def stepped(self, step: Step, frames: Frames) -> None:
         """Hand it on, and show how far it is."""

@@ -1,10 +1,11 @@
-"""What ``phframe solve`` does: check, solve, write the files, print the result."""
+"""What ``phframe solve`` does: carry out a run, write its files, print the result."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +15,8 @@ from phframe.cli.interrupt import dependable_interrupts
 from phframe.cli.partial import PartialEpisode
 from phframe.cli.progress import Progress
 from phframe.cli.recording import RECORDING, RunFiles, VideoFile, recorder_type
-from phframe.cli.request import Request
 from phframe.cli.run_directory import RUNS, RunDirectory
-from phframe.core import Episode, Status
+from phframe.core import Episode, RunSpec
 from phframe.recorders.view import open_viewer, require_viewer
 from phframe.runtime.observer import Observer
 
@@ -24,8 +24,29 @@ EPISODE = "episode.json"
 SUMMARY = "summary.json"
 
 
-def run(request: Request) -> int:
-    """Solve a scene.
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What a run is to leave and to print.
+
+    Attributes:
+        out: Directory for the files; None: a new one.
+        record: Whether to write a recording; None: if the recorder is installed.
+        video: The file of a video to make; None: none.
+        view: Whether to open the viewer.
+        as_json: Whether to print JSON.
+        quiet: Whether to print errors only.
+    """
+
+    out: Path | None = None
+    record: bool | None = None
+    video: Path | None = None
+    view: bool = False
+    as_json: bool = False
+    quiet: bool = False
+
+
+def run(spec: RunSpec, report: Report) -> int:
+    """Carry out a run, and leave and print what is wanted of it.
 
     Returns:
         The exit code.
@@ -33,75 +54,76 @@ def run(request: Request) -> int:
     Raises:
         PhframeError: If something asked for cannot be used; nothing was written then.
     """
-    directory = RunDirectory(request.out)
-    if request.view:
-        require_viewer((request.out or RUNS / "DIR") / RECORDING)
-    files = RunFiles(directory, recorder_type(request.record, quiet=request.quiet))
-    progress, partial = Progress(), PartialEpisode()
-    videos = () if request.video is None else (VideoFile(request.video, progress.through),)
-    try:
-        with dependable_interrupts():
-            episode = _solve(request, (partial, files, *videos), progress)
-            summary = _write(episode, directory, files.recording)
-    except KeyboardInterrupt:
-        _tell_interrupted(partial, directory)
+    directory = RunDirectory(report.out)
+    carried = carry_out(spec, report, directory)
+    if carried is None:
         return ExitCode.INTERRUPTED
-    finally:
-        directory.discard_if_empty()
-    _print(summary, request, directory)
-    if request.view and files.recording is not None:
-        open_viewer(files.recording)
-    return ExitCode.SUCCESS if episode.status is Status.RETRIEVED else ExitCode.OTHER_OUTCOME
-
-
-def _solve(request: Request, observers: Sequence[Observer], progress: Progress) -> Episode:
-    from phframe.runtime.solve import solve
-
-    with ExitStack() as stack:
-        for observer in (*observers, progress):
-            stack.callback(observer.close)
-        if not request.quiet:
-            progress.start()
-        return solve(
-            request.scene,
-            planner=request.planner,
-            backend=request.backend,
-            arm=request.arm,
-            plan_backend=request.plan_backend,
-            plan_arm=request.plan_arm,
-            topology=request.topology,
-            seed=request.seed,
-            noise=request.noise,
-            options=request.options,
-            time_limit=request.time_limit,
-            max_replans=request.max_replans,
-            tolerance=request.tolerance,
-            observers=(*observers, progress),
-        )
-
-
-def _write(episode: Episode, directory: RunDirectory, recording: Path | None) -> dict[str, Any]:
-    from phframe.runtime.files import save, write_whole
-    from phframe.runtime.summary import summarize
-
-    summary = summarize(episode, recording)
-    folder = directory.path or directory.make(episode.scene.name, episode.setup.planner)
-    save(episode, folder / EPISODE)
-    write_whole(folder / SUMMARY, _as_json(summary) + "\n")
-    return summary
-
-
-def _as_json(summary: Mapping[str, Any]) -> str:
-    return json.dumps(summary, allow_nan=False)
-
-
-def _print(summary: Mapping[str, Any], request: Request, directory: RunDirectory) -> None:
-    if request.as_json:
-        emit(_as_json(summary))
-    elif not request.quiet:
+    episode, summary = carried
+    if report.as_json:
+        emit(json.dumps(summary, allow_nan=False))
+    elif not report.quiet:
         from phframe.cli.result_table import result_table
 
         show(result_table(summary, directory.path))
+    view(report, directory)
+    return ExitCode.SUCCESS if episode.status.is_success else ExitCode.OTHER_OUTCOME
+
+
+def carry_out(spec: RunSpec, report: Report, directory: RunDirectory) -> tuple[Episode, dict[str, Any]] | None:
+    """Carry out a run and leave the files that are wanted.
+
+    Returns:
+        The episode and its summary; None: it was interrupted, and that has been said.
+
+    Raises:
+        PhframeError: If something asked for cannot be used; nothing was written then.
+    """
+    if report.view:
+        require_viewer((report.out or RUNS / "DIR") / RECORDING)
+    files = RunFiles(directory, recorder_type(report.record, quiet=report.quiet))
+    progress, partial = Progress(), PartialEpisode()
+    videos = () if report.video is None else (VideoFile(report.video, progress.through),)
+    try:
+        with dependable_interrupts():
+            episode = _watched(spec, (partial, files, *videos), progress, quiet=report.quiet)
+            return episode, _write(episode, directory, files.recording)
+    except KeyboardInterrupt:
+        _tell_interrupted(partial, directory)
+        return None
+    finally:
+        directory.discard_if_empty()
+
+
+def view(report: Report, directory: RunDirectory) -> None:
+    """Open the viewer, if that is wanted."""
+    if report.view and directory.path is not None and (directory.path / RECORDING).exists():
+        open_viewer(directory.path / RECORDING)
+
+
+def _watched(spec: RunSpec, observers: Sequence[Observer], progress: Progress, *, quiet: bool) -> Episode:
+    with ExitStack() as stack:
+        for observer in (*observers, progress):
+            stack.callback(observer.close)
+        if not quiet:
+            progress.start()
+        from phframe.runtime.run import run  # the libraries take a second: progress tells of it
+
+        stack.pop_all()  # it closes them
+        return run(spec, (*observers, progress))
+
+
+def _write(episode: Episode, directory: RunDirectory, recording: Path | None) -> dict[str, Any]:
+    from phframe.core.files import write_file
+    from phframe.runtime.files import save
+    from phframe.runtime.summary import summarize
+
+    summary = summarize(episode, recording)
+    if not directory.keep:
+        return summary
+    folder = directory.path or directory.make(episode.scene.name, episode.spec.name_of("planner"))
+    save(episode, folder / EPISODE)
+    write_file(folder / SUMMARY, json.dumps(summary, allow_nan=False) + "\n")
+    return summary
 
 
 def _tell_interrupted(partial: PartialEpisode, directory: RunDirectory) -> None:

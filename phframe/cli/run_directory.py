@@ -18,13 +18,14 @@ class RunDirectory:
 
     Args:
         asked: The directory; it must be new or empty. None: a new one in ``runs/``.
+        keep: Whether there is to be one at all.
 
     Raises:
         InputError: If it exists and is not an empty directory.
     """
 
-    def __init__(self, asked: Path | None) -> None:
-        self._asked = asked
+    def __init__(self, asked: Path | None, *, keep: bool = True) -> None:
+        self._asked, self.keep = asked, keep
         self.path: Path | None = None
         if asked is not None:
             _check_free(asked)

@@ -10,7 +10,7 @@ import typer
 
 from phframe.cli import completion
 from phframe.cli.options import parse_options
-from phframe.cli.request import Request
+from phframe.cli.paths import path
 
 
 def _finite(value: float) -> float:
@@ -83,6 +83,15 @@ TopologySpec = Annotated[
         autocompletion=completion.topology,
     ),
 ]
+GoalSpec = Annotated[
+    str,
+    typer.Option(
+        "--goal",
+        metavar="NAME",
+        help="What is to be achieved: a name ('phframe goals') or ./mine.py:Mine.",
+        autocompletion=completion.goals,
+    ),
+]
 Seed = Annotated[
     int,
     typer.Option("--seed", metavar="INTEGER", min=0, help="Seed of everything random; the same seed, the same result."),
@@ -103,7 +112,7 @@ OptionTexts = Annotated[
         "--option",
         metavar="KEY=VALUE",
         help="An option of the planner, or with a prefix of another part: margin=0.02, backend.step=0.002, "
-        "arm.link_width=0.1, plan_backend.KEY, topology.KEY, scenes.count=12. Repeatable. 'phframe planners NAME' and so "
+        "arm.link_width=0.1, plan_backend.KEY, topology.KEY, goal.KEY, scenes.count=12. Repeatable. 'phframe planners NAME' and so "
         "on list them.",
         autocompletion=completion.options,
     ),
@@ -137,10 +146,30 @@ Tolerance = Annotated[
         help="How far an object may be from where the plan expected it before planning anew (m).",
     ),
 ]
+Simulations = Annotated[
+    int | None,
+    typer.Option(
+        "--simulations",
+        metavar="INTEGER",
+        min=0,
+        help="Most simulated actions for planning, all replans together.",
+        show_default="no limit",
+    ),
+]
+Workers = Annotated[
+    int,
+    typer.Option(
+        "--workers",
+        metavar="INTEGER",
+        min=1,
+        help="Processes for planners that try many actions at once; the result is the same with any number.",
+    ),
+]
 Out = Annotated[
     Path | None,
     typer.Option(
         "--out",
+        parser=path,
         metavar="DIR",
         help="Directory for episode.json, summary.json and recording.rrd; it must be new or empty.",
         show_default="a new one in runs/",
@@ -158,6 +187,7 @@ Video = Annotated[
     Path | None,
     typer.Option(
         "--video",
+        parser=path,
         metavar="FILE",
         help="Film the episode: FILE.mp4, or FILE.webp for a small moving picture, three times as quick. Replaced if it "
         "exists.",
@@ -177,12 +207,15 @@ def solve(
     plan_backend: PlanBackendSpec = None,
     plan_arm: PlanArmSpec = None,
     topology: TopologySpec = "ripser",
+    goal: GoalSpec = "retrieve",
     seed: Seed = 0,
     noise: NoiseText = None,
     option: OptionTexts = None,
     time_limit: TimeLimit = 300.0,
     max_replans: MaxReplans = 30,
     tolerance: Tolerance = 0.01,
+    simulations: Simulations = None,
+    workers: Workers = 1,
     out: Out = None,
     rerun: Rerun = None,
     video: Video = None,
@@ -198,27 +231,23 @@ def solve(
         raise typer.BadParameter(
             "there is nothing to view without a recording. Leave out --no-rerun.", param_hint="--view"
         )
-    request = Request(
-        scene=scene,
-        planner=planner,
-        backend=backend,
-        arm=arm,
-        plan_backend=plan_backend,
-        plan_arm=plan_arm,
-        topology=topology,
-        seed=seed,
-        noise=noise,
-        options=parse_options(option or ()),
-        time_limit=time_limit,
-        max_replans=max_replans,
-        tolerance=tolerance,
-        out=out,
-        record=True if view else rerun,
-        video=video,
-        view=view,
-        as_json=as_json,
-        quiet=quiet,
-    )
-    from phframe.cli.run import run  # heavy, and not needed where the request is wrong
+    from phframe.cli.run import Report, run  # heavy, and not needed where the command line is wrong
+    from phframe.core import Loop, RunSpec
+    from phframe.runtime.noise import Noise
 
-    raise typer.Exit(run(request))
+    spec = RunSpec(
+        scene,
+        planner,
+        backend,
+        arm,
+        plan_backend,
+        plan_arm,
+        topology,
+        goal,
+        parse_options(option or ()),
+        seed,
+        Loop(max_replans, tolerance, time_limit, simulations),
+        Noise.of(noise).model_dump(exclude_defaults=True),
+        workers,
+    )
+    raise typer.Exit(run(spec, Report(out, True if view else rerun, video, view, as_json, quiet)))

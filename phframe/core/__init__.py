@@ -4,7 +4,7 @@ from phframe.core.action import Action, ActionKind
 from phframe.core.arm import ArmModel, ArmShape, Fingers, Joint, Outline
 from phframe.core.condition import condition_of
 from phframe.core.decision import Decision
-from phframe.core.episode import Episode, Loop, Setup, Step
+from phframe.core.episode import Episode, Step
 from phframe.core.errors import (
     ArmError,
     BudgetExceededError,
@@ -31,6 +31,7 @@ from phframe.core.plan import Cost, Plan
 from phframe.core.planner import Planner
 from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, tilt_of, yaw_of
 from phframe.core.rejection import Rejection
+from phframe.core.run_spec import Loop, RunSpec, StoredName
 from phframe.core.scene import Scene, coulomb_with_board
 from phframe.core.search_tree import ROOT, ExploredTree, SearchNode, SearchTree
 from phframe.core.shape import Cylinder, Shape
@@ -99,6 +100,7 @@ __all__ = [
     "Planner",
     "PluginError",
     "Rejection",
+    "RunSpec",
     "Scene",
     "SceneError",
     "SceneObject",
@@ -106,7 +108,6 @@ __all__ = [
     "SearchNode",
     "SearchTree",
     "Settle",
-    "Setup",
     "Shape",
     "Shelf",
     "SimulationDivergedError",
@@ -117,6 +118,7 @@ __all__ = [
     "Stop",
     "StopCause",
     "StopReason",
+    "StoredName",
     "SupportsPropagation",
     "Task",
     "TopologyEngine",

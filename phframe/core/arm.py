@@ -14,7 +14,7 @@ from phframe.core.mesh import LinkMesh
 from phframe.core.options import Options
 from phframe.core.scene import Scene
 from phframe.core.shelf import BasePose, Shelf
-from phframe.core.value import FloatArray, Floats, Value
+from phframe.core.value import FloatArray, Floats, Value, short_repr
 
 if TYPE_CHECKING:
     from phframe.core.motion_planner import MotionPlanner
@@ -67,6 +67,8 @@ class ArmShape:
     max_opening: float
     min_opening: float = 0.0
     height: float = 0.06
+
+    __repr__ = short_repr
 
     def outlines(self, opening: float) -> tuple[Outline, ...]:
         """The outlines with the fingers ``opening`` (m) apart.

@@ -31,6 +31,7 @@ class Decision(Value):
     deviations: tuple[str, ...] = ()
 
     def __init_subclass__(cls) -> None:
+        super(Decision, cls).__init_subclass__()  # by name: slots make the class anew
         _KINDS[cls.kind] = cls
 
 

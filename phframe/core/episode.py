@@ -10,10 +10,10 @@ import numpy as np
 
 from phframe.core.action import Action, ActionKind
 from phframe.core.decision import AnyDecision
-from phframe.core.errors import InputError
 from phframe.core.motion import Motion
 from phframe.core.plan import Cost, Plan
 from phframe.core.rejection import Rejection
+from phframe.core.run_spec import AnyRunSpec
 from phframe.core.scene import Scene
 from phframe.core.state import Condition, State
 from phframe.core.status import Status
@@ -22,63 +22,6 @@ from phframe.core.value import FloatArray, Value
 
 MOVED = 1e-3
 """An object that an action displaced by more than this (m) was moved by it."""
-
-
-@dataclass(frozen=True, slots=True)
-class Loop:
-    """How an episode closes the loop.
-
-    Attributes:
-        max_replans: How often the planner may be asked again, whatever for.
-        tolerance: An object farther than this (m) from where it was expected calls for a replan.
-        time_limit: Wall time for all planning together (s).
-        simulations: Simulated actions for all planning together; None: no limit.
-
-    Raises:
-        InputError: If a figure is negative or not a number.
-    """
-
-    max_replans: int = 30
-    tolerance: float = 0.01
-    time_limit: float = 300.0
-    simulations: int | None = None
-
-    def __post_init__(self) -> None:
-        for name in ("max_replans", "tolerance", "time_limit", "simulations"):
-            figure = getattr(self, name)
-            if figure is not None and not figure >= 0:
-                raise InputError(f"{name} must be 0 or more, not {figure!r}")
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Setup(Value):
-    """With what an episode was run, by registered names: enough to run it again.
-
-    Attributes:
-        planner: Name of the planner.
-        backend: Name of the physics backend that carried the plan out.
-        arm: Name of the arm that carried it out.
-        topology: Name of the topology engine.
-        seed: Seed of everything random.
-        options: Options that differ from the defaults, by part, such as ``planner`` or ``plan_backend``, and key.
-        loop: How the loop was closed.
-        versions: Versions of phframe and the libraries used.
-        plan_backend: Name of the physics backend on which it was planned; None: the same.
-        plan_arm: Name of the arm for which it was planned; None: the same.
-        noise: What the planner believed against what is true, by key; empty: the same.
-    """
-
-    planner: str
-    backend: str
-    arm: str
-    topology: str
-    seed: int
-    options: Mapping[str, Mapping[str, str | float | int | bool | None]] = field(default_factory=dict)
-    loop: Loop = Loop()
-    versions: Mapping[str, str] = field(default_factory=dict, compare=False)
-    plan_backend: str | None = None
-    plan_arm: str | None = None
-    noise: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,23 +64,25 @@ class Episode(Value):
 
     Attributes:
         scene: The scene.
-        setup: With what it was run.
+        spec: With what it was run: registered names wherever there are, and options as values that differ from the defaults.
         status: How far it got.
         reason: Why no farther; empty where the target was retrieved.
         plans: All plans, the replans included.
         steps: All actions carried out.
         rejections: The actions that could not be carried out or came to nothing, and why.
         motion_planning_time: Wall time for planning joint trajectories (s); left out when episodes are compared.
+        versions: Of Python, phframe, the plugins used, and the libraries behind them; left out likewise.
     """
 
     scene: Scene
-    setup: Setup
+    spec: AnyRunSpec
     status: Status
     reason: str
     plans: tuple[Plan, ...]
     steps: tuple[Step, ...]
     rejections: tuple[Rejection, ...] = ()
     motion_planning_time: float = field(default=0.0, compare=False)
+    versions: Mapping[str, str] = field(default_factory=dict, compare=False)
 
     @property
     def final_state(self) -> State:

@@ -8,7 +8,7 @@ from enum import StrEnum
 from phframe.core.gripper_path import Phase
 from phframe.core.state import State
 from phframe.core.unreachable import Unreachable
-from phframe.core.value import Value
+from phframe.core.value import Value, short_repr
 
 FORCE_WINDOW = 0.02
 """Forces on the arm are means over this long (s)."""
@@ -91,6 +91,8 @@ class Motion:
     tracking_error: float = 0.0
     settled: bool = True
     followed: float = 0.0
+
+    __repr__ = short_repr
 
     @property
     def complete(self) -> bool:

@@ -16,7 +16,7 @@ from phframe.core.pose import planar_pose
 from phframe.core.scene_check import problems_of
 from phframe.core.shelf import BasePose, SceneObject, Shelf
 from phframe.core.state import Condition, State
-from phframe.core.value import FloatArray
+from phframe.core.value import FloatArray, short_repr
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +40,8 @@ class Scene:
     objects: tuple[SceneObject, ...]
     target: str
     base_poses: Mapping[str, BasePose] = field(default_factory=dict, hash=False)
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         problems = problems_of(self.shelf, self.objects, self.target, self.base_poses)

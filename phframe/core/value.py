@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
 from typing import Annotated, Any
 
 import numpy as np
@@ -58,10 +58,46 @@ class Value:
         """Through the constructor, which freezes the arrays: numpy forgets that they were read-only."""
         return type(self), tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
 
+    def __init_subclass__(cls) -> None:
+        if "__repr__" not in vars(cls):
+            cls.__repr__ = short_repr  # type: ignore[method-assign] # in its own namespace: dataclass leaves that alone
+
     def _freeze(self, *names: str) -> None:
         """Replace the named array fields by read-only float copies; for use in ``__post_init__``."""
         for name in names:
             object.__setattr__(self, name, frozen_floats(getattr(self, name)))
+
+
+_LONGEST, _LONGEST_PART = 300, 80
+"""Characters of a representation, and of what it shows of one field."""
+
+
+def short_repr(value: Any) -> str:
+    """A dataclass in a line: the fields that hold anything, arrays as their shape, many items as their number."""
+    contents = ((each.name, getattr(value, each.name)) for each in fields(value) if each.repr)
+    text = ", ".join(f"{name}={_shown(content)}" for name, content in contents if not _is_empty(content))
+    return f"{type(value).__name__}({text if len(text) <= _LONGEST else f'{text[:_LONGEST]}...'})"
+
+
+def _is_empty(content: Any) -> bool:
+    return content is None or (isinstance(content, str | tuple | list | Mapping) and not content)
+
+
+def _shown(content: Any) -> str:
+    if isinstance(content, np.ndarray):
+        return f"<{content.dtype}{list(content.shape)}>"
+    if isinstance(content, type):
+        return content.__name__
+    if is_dataclass(content):
+        return f"{type(content).__name__}(...)"
+    if isinstance(content, float):
+        return f"{content:.6g}"
+    if isinstance(content, tuple | list | Mapping):
+        items = content.values() if isinstance(content, Mapping) else content
+        text = "" if any(map(is_dataclass, items)) else repr(content)
+        return text if 0 < len(text) <= _LONGEST_PART else f"<{len(content)} items>"
+    text = repr(str(content) if isinstance(content, str) else content)
+    return text if len(text) <= _LONGEST_PART else f"{text[:_LONGEST_PART]}..."
 
 
 def _contents(value: Any) -> tuple[Any, ...]:

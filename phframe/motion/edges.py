@@ -1,4 +1,4 @@
-"""Straight edges between joint configurations: where they are looked at, and whether they are valid there."""
+"""Straight edges in joint space: where they are looked at, and whether they are valid there."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Edges:
     def allowed(self, start: FloatArray, end: FloatArray) -> bool:
         """Whether the whole edge is valid but for its start, which is taken to be.
 
-        The end comes first, then the middle, then the middles of the halves: what is in the way is met early.
+        The end comes first, then the middle, then the middles of the halves: what blocks it is met early.
         """
         places = start + bisection(self.steps(start, end)) * (end - start)
         places[0] = end  # to the last bit
@@ -45,7 +45,7 @@ class Edges:
 
 @lru_cache(maxsize=1024)
 def bisection(steps: int) -> FloatArray:
-    """Shares ``(steps, 1)`` of an edge: its end, then its inner places, the middle of what is widest open first."""
+    """Fractions ``(steps, 1)`` of an edge: its end, then its inner places, the middle of what is widest open first."""
     order, open_spans = [steps], deque([(1, steps - 1)])
     while open_spans:
         first, last = open_spans.popleft()

@@ -1,8 +1,7 @@
-"""Searches paths between joint configurations by the planners of OMPL, repeatably and without a word on the console."""
+"""Sampling-based planning of joint paths by the planners of OMPL, repeatably and without a word on the console."""
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -45,7 +44,7 @@ def search(
         limits: Lower and upper joint limits ``(dof,)``.
         edges: Says what is valid. What it raises comes out of here as it is.
         planner: One of OMPL's class names, or BiEST.
-        stop: Asked by the planner in each of its rounds.
+        stop: Asked by the planner in each of its iterations.
         rng: The only source of randomness.
     """
     with _silence():
@@ -59,12 +58,6 @@ def search(
         if not problem.hasExactSolution():
             return None
         return np.array([_values(state, len(start)) for state in problem.getSolutionPath().getStates()])
-
-
-def stopping_after(iterations: int, seconds: float) -> Callable[[], bool]:
-    """True from the call after ``iterations`` others on, and once ``seconds`` have passed."""
-    asked, end = iter(range(iterations)), time.monotonic() + seconds
-    return lambda: next(asked, None) is None or time.monotonic() > end
 
 
 @contextmanager

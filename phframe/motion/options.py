@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 from pydantic import Field
 
 from phframe.core import Options
+
+Acceleration = Annotated[float, Field(gt=0.0, le=100.0)]
+Margin = Annotated[float, Field(ge=0.0, le=0.05)]
 
 
 class ArticulatedOptions(Options):
@@ -18,12 +22,21 @@ class ArticulatedOptions(Options):
         joint_acceleration: Of every joint (rad/s^2 or m/s^2).
         gripper_acceleration: Of the fingertip along a path (m/s^2).
         finger_acceleration: Of the opening (m/s^2).
-        search: Most iterations of the motion planner.
+        search: Most iterations of the motion planner for one action; each of its searches has half of what is left.
+        wall_margin: Distance kept between the arm and the shelf (m).
+        object_margin: Distance kept between the arm and objects that it must not touch (m).
+        cartesian_spacing: Between the poses of a path for which joints are found and checked for collisions (m).
+        yaw_tolerance: Most by which the gripper is turned against a path in the shelf, where it cannot be followed
+            otherwise (rad).
     """
 
     motion_planner: str = "RRTConnect"
     joint_speed: Annotated[float, Field(gt=0.0, le=1.0)] = 0.9
-    joint_acceleration: Annotated[float, Field(gt=0.0, le=100.0)] = 6.0
-    gripper_acceleration: Annotated[float, Field(gt=0.0, le=100.0)] = 3.0
-    finger_acceleration: Annotated[float, Field(gt=0.0, le=100.0)] = 5.0
+    joint_acceleration: Acceleration = 6.0
+    gripper_acceleration: Acceleration = 3.0
+    finger_acceleration: Acceleration = 5.0
     search: Annotated[int, Field(ge=1, le=1_000_000)] = 20_000
+    wall_margin: Margin = 0.0015
+    object_margin: Margin = 0.001
+    cartesian_spacing: Annotated[float, Field(ge=0.001, le=0.02)] = 0.005
+    yaw_tolerance: Annotated[float, Field(ge=0.0, le=0.8)] = math.radians(15.0)

@@ -1,4 +1,4 @@
-"""Shortens a path of joint configurations by shortcuts between places on it."""
+"""Path shortcutting: a joint path gets shorter by straight lines between places on it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Forward and inverse kinematics of an arm given as URDF, by Pinocchio."""
+"""Kinematics of an arm given as URDF: forward, inverse, Jacobians and null space, by Pinocchio."""
 
 from __future__ import annotations
 
@@ -10,19 +10,20 @@ import numpy as np
 import pinocchio
 
 from phframe.core import FloatArray
+from phframe.motion.least_squares import damped_least_squares
 
 RESTARTS = 30
 """Starting points besides the seed before a pose counts as out of reach."""
 INSET = 1e-9
 """Kept from the joint limits (rad or m)."""
 EXACT = 1e-9
-"""What is left of position (m) and turn (rad) together when a pose counts as reached."""
+"""Norm of the twist (m, rad) that is left when a pose counts as reached."""
 STEPS = 60
-"""Most steps from one starting point."""
+"""Most iterations of the inverse kinematics from one starting point."""
 PATIENCE = 8
-"""Steps without getting nearer by a tenth before a starting point is given up."""
+"""Iterations without getting nearer by a tenth before a starting point is given up."""
 LONGEST_STEP = 0.5
-"""Of any joint in one step (rad or m)."""
+"""Most that any joint moves in one iteration (rad or m)."""
 
 
 class Kinematics:
@@ -61,7 +62,7 @@ class Kinematics:
     def inverse(self, pose: FloatArray, seed: FloatArray | None = None) -> FloatArray | None:
         """Joint values ``(dof,)`` for a pose ``(7,)``, or None.
 
-        Found from the seed, else from the starting point nearest to it that gets there.
+        Found by damped least squares from the seed, else from the starting point nearest to it that gets there.
         """
         if float(np.linalg.norm(pose[:3] - self._root)) > self._longest:
             return None
@@ -72,12 +73,16 @@ class Kinematics:
         return None
 
     def descend(self, pose: FloatArray, start: FloatArray) -> FloatArray | None:
-        """Joint values ``(dof,)`` for a pose ``(7,)``, going downhill from ``start`` alone, or None."""
-        x, y, z, scalar, i, j, k = pose
-        return self.descend_to(pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar])), start)
+        """Joint values ``(dof,)`` for a pose ``(7,)``, by damped least squares from ``start`` alone, or None."""
+        return self.descend_to(se3(pose), start)
 
     def descend_to(self, target: pinocchio.SE3, start: FloatArray) -> FloatArray | None:
-        """The same for a pose as Pinocchio has it."""
+        """The same for a pose as Pinocchio has it.
+
+        Newton-Raphson with the body Jacobian and the error ``e = log6(T(q)^-1 T*)`` (K. Lynch and F. Park, "Modern
+        Robotics", 2017, section 6.2.2), each step damped the more, the farther the pose is (S. Buss, "Introduction to
+        Inverse Kinematics with Jacobian Transpose, Pseudoinverse and Damped Least Squares methods", 2009).
+        """
         q = np.clip(start, self.lower, self.upper)
         least, since = np.inf, 0
         for _ in range(STEPS):
@@ -91,26 +96,24 @@ class Kinematics:
             q = self._stepped(q, error, jacobian)
         return None
 
-    def places(self, q: FloatArray, direction: FloatArray) -> list[Any]:
+    def joint_frames(self, q: FloatArray, direction: FloatArray) -> list[Any]:
         """Where the frames of the chain's joints are, and how they move as the joints move in a direction ``(dof,)``.
 
         Returns:
-            From the base to the tip: rotation ``(3, 3)``, position ``(3,)`` (m), turning ``(3,)`` and velocity ``(3,)``
-            per unit of the direction, all in the frame of the root.
+            From the base to the tip: rotation matrix ``(3, 3)``, position ``(3,)`` (m), angular and linear velocity
+            ``(3,)`` per unit of the direction, all in the frame of the root.
         """
         model, data = self._model, self._data
         pinocchio.forwardKinematics(model, data, self._all(q), self._all(direction))
         return [_moving(data.oMi[number], data.v[number]) for number in self._numbers]
 
-    def self_motion(self, q: FloatArray) -> FloatArray:
-        """The unit direction ``(dof,)`` in which the joints can move and the tip stays, best so where there are several.
-
-        With more joints than six it leads from one configuration to others with the same fingertip pose.
-        """
-        pinocchio.computeJointJacobians(self._model, self._data, self._all(q))
-        pinocchio.updateFramePlacement(self._model, self._data, self._tip)
-        jacobian = pinocchio.getFrameJacobian(self._model, self._data, self._tip, pinocchio.LOCAL)[:, self._rows]
-        return np.asarray(np.linalg.svd(jacobian)[2][-1])
+    def error(self, q: FloatArray, target: pinocchio.SE3) -> tuple[FloatArray, FloatArray]:
+        """The twist ``(6,)`` that is left to a target, seen from the tip, and the tip's body Jacobian ``(6, dof)``."""
+        model, data, tip = self._model, self._data, self._tip
+        pinocchio.computeJointJacobians(model, data, self._all(q))
+        left = pinocchio.updateFramePlacement(model, data, tip).actInv(target)
+        jacobian = pinocchio.getFrameJacobian(model, data, tip, pinocchio.LOCAL)[:, self._rows]
+        return pinocchio.log6(left).vector, jacobian
 
     def _reach(self) -> tuple[FloatArray, float]:
         """The first joint's place ``(3,)`` and a distance from it (m) that the tip cannot exceed."""
@@ -122,20 +125,12 @@ class Kinematics:
         length = sum(float(np.linalg.norm(step)) for step in (*steps, frame.placement.translation))
         return self._model.jointPlacements[1].translation, length + float(slides.sum())
 
-    def error(self, q: FloatArray, target: pinocchio.SE3) -> tuple[FloatArray, FloatArray]:
-        """The twist ``(6,)`` that is left to a target, seen from the tip, and the tip's Jacobian ``(6, dof)``."""
-        model, data, tip = self._model, self._data, self._tip
-        pinocchio.computeJointJacobians(model, data, self._all(q))
-        left = pinocchio.updateFramePlacement(model, data, tip).actInv(target)
-        jacobian = pinocchio.getFrameJacobian(model, data, tip, pinocchio.LOCAL)[:, self._rows]
-        return pinocchio.log6(left).vector, jacobian
-
     def _stepped(self, q: FloatArray, error: FloatArray, jacobian: FloatArray) -> FloatArray:
         """One damped least-squares step; a joint that would leave its limits stays there and the others do its work."""
         free = np.ones(len(q), dtype=np.bool_)
         damping = min(1e-2, float(error @ error)) + 1e-12
         for _ in range(len(q)):
-            step = least_squares(jacobian * free, error, damping)
+            step = damped_least_squares(jacobian * free, error, damping)
             step *= min(1.0, LONGEST_STEP / max(float(np.abs(step).max()), 1e-12))
             beyond = free & ((q + step > self.upper) & (q >= self.upper) | (q + step < self.lower) & (q <= self.lower))
             if not beyond.any():
@@ -160,11 +155,12 @@ class Kinematics:
         return np.random.default_rng(0).uniform(self.lower, self.upper, (RESTARTS, len(self.lower)))
 
 
-def _moving(place: pinocchio.SE3, velocity: pinocchio.Motion) -> tuple[FloatArray, ...]:
-    axes = place.rotation
-    return axes, place.translation, axes @ velocity.angular, axes @ velocity.linear
+def se3(pose: FloatArray) -> pinocchio.SE3:
+    """A pose ``(7,)``, scalar first, as Pinocchio has it."""
+    x, y, z, scalar, i, j, k = pose.tolist()
+    return pinocchio.XYZQUATToSE3(np.array([x, y, z, i, j, k, scalar]))
 
 
-def least_squares(jacobian: FloatArray, error: FloatArray, damping: float) -> FloatArray:
-    """The smallest step ``(dof,)`` that makes up for an error ``(6,)``; joints whose columns are 0 take no part."""
-    return np.asarray(jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + damping * np.eye(6), error))
+def _moving(frame: pinocchio.SE3, velocity: pinocchio.Motion) -> tuple[FloatArray, ...]:
+    rotation = frame.rotation
+    return rotation, frame.translation, rotation @ velocity.angular, rotation @ velocity.linear

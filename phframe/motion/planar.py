@@ -1,4 +1,4 @@
-"""Lifts paths of the planar arm to its joints, which are the gripper's pose in the frame of the base."""
+"""Motion planning of the planar arm, whose joints are the gripper's pose in the frame of the base."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from phframe.core import (
     starting_from,
     yaw_of,
 )
-from phframe.motion.trapezoidal_velocity import Ramp, ramp
+from phframe.motion.trapezoidal_velocity import TrapezoidalProfile, trapezoidal_profile
 
 SPACING = 0.02
 """Between samples (s)."""
@@ -58,7 +58,7 @@ class _Leg:
     start: FloatArray
     step: FloatArray
     phase: Phase
-    ramp: Ramp
+    profile: TrapezoidalProfile
 
 
 class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
@@ -72,7 +72,7 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
     def plan(
         self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
-        """Lift a path; attempts, seconds and chance play no part."""
+        """Plan a joint trajectory; attempts, seconds and the generator play no part."""
         start, opening = self._where(state)
         first = path.rule(0).opening
         path = starting_from(path, start, PhaseRule(self.options.approach_speed, first, Contacts.NONE))
@@ -127,18 +127,18 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
         if duration < 1e-9:
             return None
         accelerations = np.array([o.acceleration, o.turn_acceleration, o.finger_acceleration])
-        return _Leg(start, step, phase, ramp(duration, float((ways / duration / accelerations).max())))
+        return _Leg(start, step, phase, trapezoidal_profile(duration, float((ways / duration / accelerations).max())))
 
     def _sampled(self, path: GripperPath, joints: FloatArray, legs: list[_Leg], opening: float) -> JointTrajectory:
         """The trajectory of legs that follow one another."""
         start = np.array([*path.poses[0], opening])
-        legs = legs or [_Leg(start, np.zeros(4), path.phases[0], ramp(SPACING, SPACING))]
+        legs = legs or [_Leg(start, np.zeros(4), path.phases[0], trapezoidal_profile(SPACING, SPACING))]
         times, knots, speeds, phases = [np.zeros(1)], [start[None]], [np.zeros((1, 4))], []
         for leg in legs:
-            t = leg.ramp.times(SPACING)[1:]
+            t = leg.profile.times(SPACING)[1:]
             times.append(times[-1][-1] + t)
-            knots.append(leg.start + leg.ramp.fraction(t)[:, None] * leg.step)
-            speeds.append(leg.ramp.rate(t)[:, None] * leg.step)
+            knots.append(leg.start + leg.profile.fraction(t)[:, None] * leg.step)
+            speeds.append(leg.profile.rate(t)[:, None] * leg.step)
             phases += [leg.phase] * len(t)
         poses, openings = np.vstack(knots)[:, :3], np.vstack(knots)[:, 3]
         gripper = GripperTrajectory(np.concatenate(times), poses, openings, tuple(phases), self.arm.force_limit)
@@ -147,8 +147,8 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
     def _in_base(self, first: FloatArray, poses: FloatArray, speeds: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Joint values and speeds ``(k, 3)``: the poses as the base sees them, from the first joint values on."""
         c, s = np.cos(self.base_pose.yaw), np.sin(self.base_pose.yaw)
-        turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-        return first + (poses - poses[0]) @ turned, speeds @ turned
+        rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        return first + (poses - poses[0]) @ rotation, speeds @ rotation
 
 
 def _length(poses: FloatArray) -> float:

@@ -1,4 +1,4 @@
-"""Parts of a motion that begin and end at rest: free ways from corner to corner, and the legs of a path."""
+"""Segments of a motion, from rest to rest: straight lines in joint space, and the legs of a Cartesian path."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from itertools import pairwise
 import numpy as np
 
 from phframe.core import FloatArray, GripperPath, Phase, PhaseRule
-from phframe.motion.route import Route
+from phframe.motion.cartesian_path import JointPath
 
 JOINT_STEP = 0.05
-"""Between the values of a joint on a free way (rad or m)."""
+"""Most that a joint moves between two samples of a straight line in joint space (rad or m)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stretch:
+class Segment:
     """Joints from rest to rest.
 
     Attributes:
@@ -34,23 +34,23 @@ class Stretch:
     poses: FloatArray | None = None
 
 
-def free_way(corners: FloatArray, opening: float, end_opening: float) -> Iterator[Stretch]:
+def straight_segments(corners: FloatArray, opening: float, end_opening: float) -> Iterator[Segment]:
     """Straight from corner to corner ``(k, dof)`` of the joints; the fingers move all the way."""
     openings = np.linspace(opening, end_opening, len(corners))
     for (begin, end), (first, last) in zip(pairwise(corners), pairwise(openings), strict=True):
         steps = max(2, int(np.ceil(np.abs(end - begin).max() / JOINT_STEP)) + 1)
         fraction = np.linspace(0.0, 1.0, steps)
-        yield Stretch(begin + fraction[:, None] * (end - begin), first + fraction * (last - first), Phase.APPROACH)
+        yield Segment(begin + fraction[:, None] * (end - begin), first + fraction * (last - first), Phase.APPROACH)
 
 
-def legs_of(route: Route, path: GripperPath, opening: float) -> Iterator[Stretch]:
-    """The legs of a route; at the end of each the fingers are as its rule has them."""
+def leg_segments(joint_path: JointPath, path: GripperPath, opening: float) -> Iterator[Segment]:
+    """The legs of a path in joint space; at the end of each the fingers are as its rule has them."""
     begin = 0
-    for leg in dict.fromkeys(route.legs.tolist()):
-        end = int(np.flatnonzero(route.legs == leg)[-1])
+    for leg in dict.fromkeys(joint_path.legs.tolist()):
+        end = int(np.flatnonzero(joint_path.legs == leg)[-1])
         rule = path.rule(leg)
         rows = slice(begin, end + 1)
         openings = np.linspace(opening, rule.opening, end + 1 - begin)
         if end > begin:
-            yield Stretch(route.joints[rows], openings, path.phases[leg], rule, route.poses[rows])
+            yield Segment(joint_path.joints[rows], openings, path.phases[leg], rule, joint_path.poses[rows])
         begin, opening = end, rule.opening

@@ -1,4 +1,4 @@
-"""Gives a motion its times: as quick as the joints, the gripper and the path's rules allow."""
+"""Time parametrisation: times for a path in joint space, as quick as joints, gripper and the path's rules allow."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from phframe.core import (
     yaw_of,
 )
 from phframe.motion.options import ArticulatedOptions
-from phframe.motion.segments import Stretch
-from phframe.motion.toppra_ import Timed, timed
+from phframe.motion.segments import Segment
+from phframe.motion.toppra_ import TimedPath, time_optimal
 
 UNBOUNDED = 1e3
 """Limit of what has no limit of its own: it comes along with what has."""
@@ -28,7 +28,7 @@ FASTEST_FINGERS = 0.2
 """Rate of the opening where no rule says (m/s)."""
 
 
-class Scheduler:
+class TimeParametrisation:
     """Times motions of one arm.
 
     Args:
@@ -42,21 +42,21 @@ class Scheduler:
         self._joint_speeds = np.array([joint.velocity for joint in arm.joints]) * options.joint_speed
         self._finger_speed = 2.0 * min(joint.velocity for joint in arm.fingers.joints)
 
-    def trajectory(self, stretches: Sequence[Stretch]) -> JointTrajectory:
-        """The stretches one after another, with a rest between them.
+    def trajectory(self, segments: Sequence[Segment]) -> JointTrajectory:
+        """The segments one after another, with a rest between them.
 
         Raises:
             ArmError: If one of them cannot be driven within the limits.
         """
-        dof, done = len(self._arm.joints), [self._timed(stretch) for stretch in stretches]
+        dof, done = len(self._arm.joints), [self._timed(segment) for segment in segments]
         starts = np.concatenate([[0.0], np.cumsum([part.times[-1] for part in done])])
         kept = [slice(1 if number else 0, None) for number in range(len(done))]
         times = [part.times[rows] + start for part, rows, start in zip(done, kept, starts, strict=False)]
         values = np.vstack([part.values[rows] for part, rows in zip(done, kept, strict=True)])
         speeds = np.vstack([part.speeds[rows] for part, rows in zip(done, kept, strict=True)])
         phases: list[Phase] = []
-        for part, stretch in zip(done, stretches, strict=True):
-            phases += [stretch.phase] * (len(part.times) - 1)
+        for part, segment in zip(done, segments, strict=True):
+            phases += [segment.phase] * (len(part.times) - 1)
         x, y, yaw, opening = values[:, dof : dof + 4].T
         gripper = GripperTrajectory(
             np.concatenate(times), np.column_stack([x, y, yaw]), opening, tuple(phases), self._arm.force_limit
@@ -68,12 +68,12 @@ class Scheduler:
         lower, upper = np.array([[joint.lower, joint.upper] for joint in self._arm.joints]).T
         return np.asarray(np.clip(joints, np.minimum(lower, joints[0]), np.maximum(upper, joints[0])))
 
-    def _timed(self, stretch: Stretch) -> Timed:
+    def _timed(self, segment: Segment) -> TimedPath:
         """Joints, x, y, yaw, opening and way of the fingertip over time."""
-        poses = stretch.poses if stretch.poses is not None else self._seen_from_above(stretch.joints)
+        poses = segment.poses if segment.poses is not None else self._seen_from_above(segment.joints)
         way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(poses[:, :2], axis=0).T))])
-        path = np.column_stack([stretch.joints, poses, stretch.openings, way])
-        return timed(path, self._speeds(stretch.rule), self._accelerations(stretch.rule))
+        path = np.column_stack([segment.joints, poses, segment.openings, way])
+        return time_optimal(path, self._speeds(segment.rule), self._accelerations(segment.rule))
 
     def _seen_from_above(self, joints: FloatArray) -> FloatArray:
         poses = [compose(self._base_pose.pose, self._arm.forward(q)) for q in joints]

@@ -1,4 +1,4 @@
-"""Gives a path of joints its times, as quick as speeds and accelerations allow, by TOPP-RA (Pham and Pham 2018)."""
+"""Time-optimal path parametrisation: a path gets its times within limits of speed and acceleration, by TOPP-RA."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import toppra.algorithm
 import toppra.constraint
 
 from phframe.core import FloatArray, IntArray
-from phframe.motion.trapezoidal_velocity import ramp
+from phframe.motion.trapezoidal_velocity import trapezoidal_profile
 
 SPACING = 0.02
 """Between samples (s)."""
@@ -27,7 +27,7 @@ CREEPING = 2.0, 0.5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Timed:
+class TimedPath:
     """A path over time, from rest to rest.
 
     Attributes:
@@ -41,8 +41,12 @@ class Timed:
     speeds: FloatArray
 
 
-def timed(path: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Timed:
-    """The quickest way along a path within limits, or where that is not found, a slower one.
+def time_optimal(path: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> TimedPath:
+    """The quickest motion along a path within limits, or where that is not found, a slower one.
+
+    On ``q(s(t))`` the limits are ``|q' s'| <= v`` and ``|q' s'' + q'' s'^2| <= a``; TOPP-RA finds the speeds ``s'^2``
+    that can be stopped from, backwards over a grid, and takes the greatest of them, forwards (H. Pham and Q.-C. Pham,
+    "A new approach to time-optimal path parameterization based on reachability analysis", 2018).
 
     Args:
         path: ``(n, m)`` values that follow one another, smoothly joined by cubic splines.
@@ -51,17 +55,17 @@ def timed(path: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Ti
     """
     path = path[_apart(path, speeds)]
     if len(path) < 2:
-        return Timed(np.array([0.0, SPACING]), path[[0, 0]], np.zeros((2, path.shape[1])))
+        return TimedPath(np.array([0.0, SPACING]), path[[0, 0]], np.zeros((2, path.shape[1])))
     fraction = np.concatenate([[0.0], np.cumsum(_seconds(path, speeds))])
     spline = toppra.SplineInterpolator(fraction, path)
     grid = fraction if len(fraction) >= LEAST_GRID else np.linspace(0.0, fraction[-1], LEAST_GRID)
-    found: list[Timed] = []
+    found: list[TimedPath] = []
     for _ in range(GRIDS):
         found += _quickest(spline, grid, speeds, accelerations)
         if found and not _creeps(found[-1], fraction):
             return found[-1]
         grid = _divided(grid)
-    return min([*found, _evenly(spline, fraction, speeds, accelerations)], key=lambda way: float(way.times[-1]))
+    return min([*found, _uniform(spline, fraction, speeds, accelerations)], key=lambda each: float(each.times[-1]))
 
 
 def _apart(path: FloatArray, speeds: FloatArray) -> IntArray:
@@ -86,8 +90,8 @@ def _seconds(path: FloatArray, speeds: FloatArray) -> FloatArray:
     return np.asarray((np.abs(np.diff(path, axis=0)) / speeds).max(axis=1))
 
 
-def _creeps(found: Timed, fraction: FloatArray) -> bool:
-    """Whether a way takes far longer than a path should."""
+def _creeps(found: TimedPath, fraction: FloatArray) -> bool:
+    """Whether a motion takes far longer than a path should."""
     times, besides = CREEPING
     return float(found.times[-1]) > times * float(fraction[-1]) + besides
 
@@ -98,8 +102,8 @@ def _divided(grid: FloatArray) -> FloatArray:
     return np.append((grid[:-1, None] + np.diff(grid)[:, None] * parts).ravel(), grid[-1])
 
 
-def _quickest(spline: Any, grid: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> list[Timed]:
-    """TOPP-RA's way along a spline whose parameter is the time at full speed, if it finds any."""
+def _quickest(spline: Any, grid: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> list[TimedPath]:
+    """TOPP-RA's motion along a spline whose parameter is the time at full speed, if it finds any."""
     logging.getLogger("toppra").setLevel(logging.ERROR)  # it warns where it finds none
     limits = [
         toppra.constraint.JointVelocityConstraint(np.column_stack([-speeds, speeds])),
@@ -110,11 +114,11 @@ def _quickest(spline: Any, grid: FloatArray, speeds: FloatArray, accelerations: 
     if found is None:
         return []
     times = np.linspace(0.0, found.duration, max(2, int(np.ceil(found.duration / SPACING)) + 1))
-    return [Timed(times, np.asarray(found(times)), np.asarray(found(times, 1)))]
+    return [TimedPath(times, np.asarray(found(times)), np.asarray(found(times, 1)))]
 
 
-def _evenly(spline: Any, fraction: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Timed:
-    """A way along a spline as slow all along as where it has to be slowest."""
+def _uniform(spline: Any, fraction: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> TimedPath:
+    """A trapezoidal velocity profile along a spline, as slow all along as where it has to be slowest."""
     looks = _divided(_divided(fraction))
     slope, bend = np.abs(spline(looks, 1)), np.abs(spline(looks, 2))
     fastest = 1.0 / float((slope / speeds).max())
@@ -122,7 +126,7 @@ def _evenly(spline: Any, fraction: FloatArray, speeds: FloatArray, accelerations
     if curved > 0.0:  # half of the acceleration is for the bends, the other half for getting faster
         fastest = min(fastest, float(np.sqrt(0.5 / curved)))
     gain = 0.5 / float((slope / accelerations).max())
-    found, length = ramp(float(fraction[-1]) / fastest, fastest / gain), float(fraction[-1])
+    found, length = trapezoidal_profile(float(fraction[-1]) / fastest, fastest / gain), float(fraction[-1])
     times = found.times(SPACING)
     at = found.fraction(times) * length
-    return Timed(times, np.asarray(spline(at)), np.asarray(spline(at, 1)) * (found.rate(times) * length)[:, None])
+    return TimedPath(times, np.asarray(spline(at)), np.asarray(spline(at, 1)) * (found.rate(times) * length)[:, None])

@@ -1,4 +1,4 @@
-"""How far along a straight leg one is at what time: from rest to rest, with finite acceleration."""
+"""Trapezoidal velocity profiles: the quickest motion from rest to rest at limited speed and acceleration."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from phframe.core import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class Ramp:
-    """A fraction of a leg, 0 to 1, over time: even acceleration, full speed, even deceleration.
+class TrapezoidalProfile:
+    """A fraction of a leg, 0 to 1, over time: constant acceleration, full speed, constant deceleration.
+
+    Source: K. Lynch and F. Park, "Modern Robotics", 2017, section 9.2.2.2; a triangle where full speed is not reached.
 
     Attributes:
         peak: Greatest rate (1/s).
@@ -36,6 +38,7 @@ class Ramp:
         t, left = np.minimum(times, self.rising), np.maximum(times - self.duration + self.rising, 0.0)
         cruising = np.clip(times - self.rising, 0.0, self.duration - 2.0 * self.rising)
         steepness = self.peak / self.rising
+        # a t^2 / 2 while it gets faster, v t at full speed, v t - a t^2 / 2 while it gets slower
         return np.asarray(steepness * t**2 / 2.0 + self.peak * (cruising + left) - steepness * left**2 / 2.0)
 
     def rate(self, times: FloatArray) -> FloatArray:
@@ -43,14 +46,14 @@ class Ramp:
         return np.asarray(self.peak * np.clip(np.minimum(times, self.duration - times) / self.rising, 0.0, 1.0))
 
 
-def ramp(at_full_speed: float, to_full_speed: float) -> Ramp:
-    """The quickest ramp.
+def trapezoidal_profile(at_full_speed: float, to_full_speed: float) -> TrapezoidalProfile:
+    """The quickest profile.
 
     Args:
         at_full_speed: What the leg takes at full speed (s), above 0.
         to_full_speed: What it takes to get from rest to full speed (s), above 0.
     """
     if at_full_speed >= to_full_speed:
-        return Ramp(1.0 / at_full_speed, to_full_speed, at_full_speed + to_full_speed)
+        return TrapezoidalProfile(1.0 / at_full_speed, to_full_speed, at_full_speed + to_full_speed)
     rising = math.sqrt(at_full_speed * to_full_speed)
-    return Ramp(1.0 / rising, rising, 2.0 * rising)
+    return TrapezoidalProfile(1.0 / rising, rising, 2.0 * rising)

@@ -11,7 +11,7 @@ from phframe.core import ArmShape, ArmState, FloatArray, Outline, Scene, compose
 from phframe.recorders import palette
 from phframe.recorders.bodies import Body, Piece, prism
 from phframe.recorders.frames import Frames, parked_arm
-from phframe.recorders.robot import Robot, read_robot
+from phframe.recorders.robot import drawn_robot
 from phframe.runtime.observer import MountedArm
 
 
@@ -56,7 +56,7 @@ class Links(ArmBodies):
         model = arm.model
         left, right = model.fingers.joints
         self._joints = _Joints(tuple(j.name for j in model.joints), (left.name, right.name), (left.lower, right.lower))
-        self._robot: Robot = read_robot(model.urdf(), model.meshes(), model.fingers.links)
+        self._robot = drawn_robot(model.urdf(), model.meshes(), model.fingers.links)
         self._base_pose, self._min_opening = arm.base_pose.pose, arm.shape.min_opening
         tip = compose(self._base_pose, model.forward(model.home))
         self.bodies = self._robot.bodies

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -14,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phframe.core import InputError
+from phframe.core.files import NewFile
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,28 +71,11 @@ def format_of(path: Path) -> Format:
         raise InputError(f"cannot write the video {path}: give a file that ends in {endings}.") from None
 
 
-def refuse_unwritable(path: Path) -> None:
-    """Check that a file can be made, by making and removing one beside it.
-
-    Raises:
-        InputError: If not.
-    """
-    if path.is_dir():
-        raise InputError(f"cannot write the video {path}: it is a directory. Give a file.")
-    try:
-        try:
-            _beside(path).touch()
-        finally:
-            _beside(path).unlink(missing_ok=True)
-    except (OSError, ValueError) as error:
-        raise _unwritable(path, error) from None
-
-
 class Film:
     """A video that is being written. It lies beside its place under another name until it is whole.
 
     Args:
-        path: The file; one that exists is replaced.
+        path: The file; a regular one that exists is replaced.
         kind: What it holds.
 
     Raises:
@@ -101,11 +84,12 @@ class Film:
 
     def __init__(self, path: Path, kind: Format) -> None:
         self.path, self.kind = path, kind
-        self._pictures = 0
+        self._pictures, self._file = 0, NewFile(path)
         try:
-            self._container = av.open(str(_beside(path)), "w", format=kind.container, options=dict(kind.writing))
+            self._container = av.open(str(self._file.part), "w", format=kind.container, options=dict(kind.writing))
             self._stream = self._container.add_stream(kind.codec, rate=kind.rate, options=dict(kind.encoding))
         except (OSError, ValueError) as error:
+            self._file.close()
             raise _unwritable(path, error) from None
         self._stream.width, self._stream.height, self._stream.pix_fmt = kind.width, kind.height, "yuv420p"
 
@@ -129,15 +113,15 @@ class Film:
         self._write(None)
         try:
             self._container.close()
-            _beside(self.path).replace(self.path)
         except OSError as error:
             raise _unwritable(self.path, error) from None
+        self._file.put()
 
     def close(self) -> None:
         """Leave nothing, unless it is finished. May be called twice."""
         with suppress(OSError, ValueError):
             self._container.close()
-        _beside(self.path).unlink(missing_ok=True)
+        self._file.close()
 
     def _write(self, frame: av.VideoFrame | None) -> None:
         try:
@@ -146,11 +130,6 @@ class Film:
             raise _unwritable(self.path, error) from None
 
 
-def _beside(path: Path) -> Path:
-    """Where it is written: no other run writes there."""
-    return path.with_name(f".{path.name}.{os.getpid()}.part")
-
-
 def _unwritable(path: Path, error: Exception) -> InputError:
     why = getattr(error, "strerror", None) or " ".join(str(error).split())
-    return InputError(f"cannot write the video {path}: {why}. Give a file in a directory that exists.")
+    return InputError(f"cannot write the video {path}: {why}")

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from phframe.core import Condition, Episode, Motion, Plan, Scene, Setup, Status, Step
+from phframe.core import Condition, Episode, Motion, Plan, RunSpec, Scene, Status, Step
 from phframe.pushing import Corridor, PushDecision
 
 
-def opening_line(scene: Scene, setup: Setup) -> str:
+def opening_line(scene: Scene, spec: RunSpec) -> str:
     """What is about to be done, and with what."""
     others = _plural(len(scene.objects) - 1, "other object")
-    means = f"{setup.planner}, {setup.backend}, arm {setup.arm}, {setup.topology}, seed {setup.seed}"
+    planner, backend, arm, topology = map(spec.name_of, ("planner", "backend", "arm", "topology"))
+    means = f"{planner}, {backend}, arm {arm}, {topology}, seed {spec.seed}"
     return f"{scene.name}: retrieve {scene.target} among {others} ({means})"
 
 

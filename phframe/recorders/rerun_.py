@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import rerun as rr
 
-from phframe.core import Episode, Plan, Scene, Setup, State, Step
+from phframe.core import Episode, Plan, RunSpec, Scene, State, Step
 from phframe.pushing import PushDecision
 from phframe.recorders import (
     arm_entities,
@@ -27,6 +27,7 @@ from phframe.recorders.coloring import components_of
 from phframe.recorders.frames import Frames
 from phframe.recorders.stream import Stream
 from phframe.runtime.observer import MountedArm, Observer
+from phframe.runtime.versions import versions_of
 
 LOG = "story/log"
 PAGE = "story/decision"
@@ -46,21 +47,21 @@ class RerunRecorder(Observer):
         self._stream: Stream | None = None
         self._seconds, self._actions, self._plans = 0.0, 0, 0
 
-    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+    def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """Create the file and write down what stays as it is, and the scene as it begins.
 
         Raises:
             InputError: If the file cannot be written, or the arm cannot be drawn.
         """
         self._scene, self._arm, self._bodies = scene, arm.shape, bodies_of(arm, scene)
-        stream = Stream(self.path, scene.name, blueprint_for(scene.shelf, arm.base_pose), _properties(setup))
+        stream = Stream(self.path, scene.name, blueprint_for(scene.shelf, arm.base_pose), _properties(spec))
         self._stream = stream
         self._seconds, self._actions, self._plans = 0.0, 0, 0
         shelf_entities.log_shelf(stream, scene.shelf)
         object_entities.log_objects(stream, scene)
         arm_entities.log_arm(stream, self._arm, self._bodies)
         series.log_styles(stream)
-        self._show_beginning(stream, narration.opening_line(scene, setup))
+        self._show_beginning(stream, narration.opening_line(scene, spec))
 
     def planned(self, plan: Plan) -> None:
         """Write down what a plan holds and what it cost."""
@@ -154,9 +155,9 @@ class RerunRecorder(Observer):
         stream.put(LOG, rr.TextLog(line, level=level, color=color))
 
 
-def _properties(setup: Setup) -> dict[str, str]:
+def _properties(spec: RunSpec) -> dict[str, str]:
     """What an episode is run with, as text."""
-    named = {name: str(getattr(setup, name)) for name in ("planner", "backend", "arm", "topology", "seed")}
-    options = {f"{part}_{key}": str(value) for part, given in setup.options.items() for key, value in given.items()}
-    versions = {f"version_{name}": version for name, version in setup.versions.items()}
-    return {**named, **options, **versions}
+    named = {name: spec.name_of(name) for name in ("planner", "backend", "arm", "topology", "goal")}
+    options = {f"{part}_{key}": str(value) for part, given in spec.options.items() for key, value in given.items()}
+    versions = {f"version_{name}": version for name, version in versions_of(spec).items()}
+    return {**named, "seed": str(spec.seed), **options, **versions}

@@ -9,11 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from phframe.core import Episode, NotInstalledError, Scene, Setup, State, Step
+from phframe.core import Episode, NotInstalledError, RunSpec, Scene, State, Step
+from phframe.core.files import check_writable
 from phframe.pushing import PushDecision
 from phframe.recorders.arm_bodies import bodies_of
 from phframe.recorders.coloring import components_of
-from phframe.recorders.film import Film, format_of, refuse_unwritable
+from phframe.recorders.film import Film, format_of
 from phframe.recorders.frames import Frames
 from phframe.recorders.opengl import find_opengl
 from phframe.runtime.observer import MountedArm, Observer
@@ -29,7 +30,7 @@ class VideoRecorder(Observer):
     colours of the recording for Rerun: the target amber, what belongs together alike, what fell red.
 
     Args:
-        path: The file, ``.mp4`` or ``.webp``; one that exists is replaced.
+        path: The file, ``.mp4`` or ``.webp``; a regular one that exists is replaced.
 
     Raises:
         InputError: If the file cannot be written, or nothing here can draw.
@@ -38,7 +39,7 @@ class VideoRecorder(Observer):
 
     def __init__(self, path: Path) -> None:
         self.path, self._kind = path, format_of(path)
-        refuse_unwritable(path)
+        check_writable(path)
         find_opengl()  # before mujoco is imported: it wants what the environment asks for
         try:
             from phframe.recorders.offscreen import require_drawing
@@ -48,7 +49,7 @@ class VideoRecorder(Observer):
         require_drawing()
         self._shooting: _Shooting | None = None
 
-    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+    def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """Build the picture and show the scene as it begins.
 
         Raises:

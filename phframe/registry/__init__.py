@@ -3,8 +3,9 @@
 from phframe.registry.catalogue import Broken, Catalogue, Entry
 from phframe.registry.extension import API_VERSION, Extension, Kind
 from phframe.registry.hookspec import hookimpl
-from phframe.registry.load import create, load
+from phframe.registry.load import create, identify, load
 from phframe.registry.manager import catalogue, discover
+from phframe.registry.versions import versions
 
 __all__ = [
     "API_VERSION",
@@ -17,5 +18,7 @@ __all__ = [
     "create",
     "discover",
     "hookimpl",
+    "identify",
     "load",
+    "versions",
 ]

@@ -46,6 +46,7 @@ EXTENSIONS = [
         "phframe.arms.baxter:Baxter",
         "An arm of Rethink Robotics' Baxter: seven joints, electric gripper",
         extra="baxter",
+        uses=("ompl",),
     ),
     _own(
         Kind.ARM,
@@ -53,6 +54,7 @@ EXTENSIONS = [
         "phframe.arms.articulated:DescribedArm",
         "Any arm, from a URDF and a short description of it",
         extra="baxter",
+        uses=("ompl",),
     ),
     _own(
         Kind.TOPOLOGY,

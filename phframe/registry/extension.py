@@ -40,6 +40,7 @@ class Extension:
         summary: One line for the listings.
         extra: The extra of its distribution that brings the libraries it needs, such as ``mujoco``; None: none.
         api_version: The ``API_VERSION`` it was written for; where it is not said, the first, which did not ask for it.
+        uses: Further extras that it uses where they are installed, and whose versions belong to what it does.
 
     Raises:
         PluginError: If the name or the target is not of that form.
@@ -51,6 +52,7 @@ class Extension:
     summary: str
     extra: str | None = None
     api_version: int = FIRST_API_VERSION
+    uses: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.kind not in list(Kind):

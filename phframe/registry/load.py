@@ -1,4 +1,4 @@
-"""From a name, or a file, to the class."""
+"""From a name, or a file, to the class; and from a class to its name."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from types import MappingProxyType
 from typing import Any
 
 from phframe.core.arm import ArmModel
-from phframe.core.errors import NotInstalledError, PluginError
+from phframe.core.errors import InputError, NotInstalledError, OptionError, PluginError
 from phframe.core.goal import Goal
 from phframe.core.physics import Physics
 from phframe.core.planner import Planner
+from phframe.core.run_spec import StoredName
 from phframe.core.suite import SceneSuite
 from phframe.core.topology import TopologyEngine
 from phframe.registry.catalogue import Catalogue, Entry
@@ -33,41 +34,76 @@ INTERFACES: Mapping[Kind, type] = MappingProxyType(
 """What the classes of each kind are subclasses of; kinds that are not here have no interface."""
 
 
-def load(kind: Kind, spec: str, registered: Catalogue | None = None) -> Any:
-    """The class that a spec stands for. A spec is all that another process needs to load it too.
+def load(kind: Kind, part: Any, registered: Catalogue | None = None) -> Any:
+    """The class that a part stands for. A text is all that another process needs to load it too.
 
     Args:
         kind: What it is.
-        spec: A name, ``distribution:name``, or a file and a class in it, ``./mine.py:Mine``.
+        part: A name, ``distribution:name``, or a file and a class in it, ``./mine.py:Mine``, unless that was read from a
+            file (``StoredName``); or a class, or an object of it.
         registered: Where names are looked up; None: all that is registered in this environment.
 
     Raises:
         UnknownNameError: If there is no such name.
         NotInstalledError: If it needs a library that is not installed.
         PluginError: If it does not load or does not keep to its interface.
-        InputError: If a file cannot be read.
+        InputError: If a file cannot be read, or is named by another file.
     """
-    if is_file(spec):
-        return _checked(kind, spec, load_from_file(spec, INTERFACES.get(kind, object)))
-    entry = (registered or catalogue()).find(kind, spec)
-    return _checked(kind, entry.name, _import(entry))
+    if not isinstance(part, str):
+        loaded = part if isinstance(part, type) else type(part)
+        return _checked(kind, loaded.__name__, loaded)
+    if not is_file(part):
+        entry = (registered or catalogue()).find(kind, part)
+        return _checked(kind, entry.name, _import(entry))
+    if isinstance(part, StoredName):
+        raise InputError(
+            f"the {kind} is {str(part)!r}, a class in a file, and code is not run because a file names it. If you trust "
+            f"it, give it yourself, as in --{kind} {part}"
+        )
+    return _checked(kind, part, load_from_file(part, INTERFACES.get(kind, object)))
 
 
-def create(kind: Kind, spec: str, options: Mapping[str, Any] | None = None, registered: Catalogue | None = None) -> Any:
-    """An object of the class that a spec stands for, of a kind that is made from options alone: all but backends.
+def create(kind: Kind, part: Any, options: Mapping[str, Any] | None = None, registered: Catalogue | None = None) -> Any:
+    """An object of the class that a part stands for, of a kind that is made from options alone: all but backends.
 
     Args:
-        kind: Planner, arm, topology or scenes.
-        spec: As for ``load``.
-        options: Values, or their text, by name.
+        kind: Planner, arm, topology, goal or scenes.
+        part: As for ``load``; an object is taken as it is.
+        options: Values, or their text, by name; none with an object, which has its own.
         registered: As for ``load``.
 
     Raises:
-        OptionError: If an option is unknown, of the wrong type or out of range.
+        OptionError: If an option is unknown, of the wrong type or out of range, or given with an object.
         PhframeError: As ``load``.
     """
-    loaded = load(kind, spec, registered)
-    return loaded(loaded.options_type.parse(options or {}, f"{kind} {spec}"))
+    loaded = load(kind, part, registered)
+    if not isinstance(part, str | type):
+        if options:
+            raise OptionError(f"{kind} {loaded.__name__} is an object with options of its own: give it none beside it")
+        return part
+    name = part if isinstance(part, str) else part.__name__
+    return loaded(loaded.options_type.parse(options or {}, f"{kind} {name}"))
+
+
+def identify(kind: Kind, part: Any, options: Mapping[str, Any] | None = None) -> tuple[Any, Mapping[str, Any]]:
+    """A class or an object as its registered name and options, if its class is registered; else as it is.
+
+    Raises:
+        OptionError: If there are options beside an object.
+        PluginError: If it does not keep to its interface.
+    """
+    if isinstance(part, str):
+        return part, options or {}
+    own = load(kind, part)
+    names = [entry.name for entry in catalogue().extensions(kind) if entry.extension.target == _target(own)]
+    if isinstance(part, type) or not names:
+        return (names or [part])[0], options or {}
+    create(kind, part, options)  # refuses options beside it
+    return names[0], part.options.model_dump(mode="json", exclude_defaults=True)
+
+
+def _target(cls: type) -> str:
+    return f"{cls.__module__}:{cls.__qualname__}"
 
 
 def _import(entry: Entry) -> Any:

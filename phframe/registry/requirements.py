@@ -45,6 +45,19 @@ def missing(distribution: str, extra: str | None) -> Missing | None:
     return None
 
 
+def required(distribution: str, extra: str | None = None) -> list[str]:
+    """The libraries that a distribution, or one extra of it, needs here: canonical names, installed or not."""
+    from packaging.requirements import Requirement
+    from packaging.utils import canonicalize_name
+
+    try:
+        requirements = [Requirement(line) for line in metadata.requires(distribution) or ()]
+    except metadata.PackageNotFoundError:
+        return []
+    here = [each for each in requirements if each.marker is None or each.marker.evaluate({"extra": extra or ""})]
+    return [canonicalize_name(each.name) for each in here if _belongs(each, extra)]
+
+
 def _belongs(requirement: Requirement, extra: str | None) -> bool:
     """Whether it is asked for by the extra, be it on this platform or not."""
     marker = str(requirement.marker or "")

@@ -19,11 +19,10 @@ from phframe.core import (
     Decision,
     Episode,
     Goal,
-    Loop,
     Plan,
     Planner,
     Rejection,
-    Setup,
+    RunSpec,
     SimulationDivergedError,
     State,
     Status,
@@ -37,6 +36,7 @@ from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.sensor import Sensor
+from phframe.runtime.versions import versions_of
 
 FRAME_PERIOD = 1.0 / 30.0
 """Of the world's time, between the moments that observers are shown (s)."""
@@ -48,8 +48,7 @@ def run_episode(
     planning: PlanningWorld,
     execution: ExecutionWorld,
     goal: Goal[Any],
-    setup: Setup,
-    loop: Loop = Loop(),  # noqa: B008 - immutable
+    spec: RunSpec,
     observers: Sequence[Observer] = (),
     sensor: Sensor | None = None,
 ) -> Episode:
@@ -63,14 +62,13 @@ def run_episode(
         planning: Where it plans.
         execution: Where the plan is carried out, from the scene's initial state on.
         goal: What is to be achieved, and the judge of it.
-        setup: What to note in the episode.
-        loop: When to replan, and how often.
+        spec: What to note in the episode; its seed and loop are followed.
         observers: Who looks on.
         sensor: Through which the robot sees the world: what it plans, expects and aims at comes from that, what is told
             of the episode from the world as it is. None: it sees everything as it is.
     """
     see = (lambda state: state) if sensor is None else sensor.see
-    return _Run(planner, topology, planning, execution, goal, setup, loop, observers, see).episode()
+    return _Run(planner, topology, planning, execution, goal, spec, observers, see).episode()
 
 
 class _Run:
@@ -83,15 +81,14 @@ class _Run:
         planning: PlanningWorld,
         execution: ExecutionWorld,
         goal: Goal[Any],
-        setup: Setup,
-        loop: Loop,
+        spec: RunSpec,
         observers: Sequence[Observer],
         see: Callable[[State], State],
     ) -> None:
         self._planner, self._topology, self._planning, self._execution = planner, topology, planning, execution
-        self._goal, self._setup, self._loop, self._observers, self._see = goal, setup, loop, observers, see
+        self._goal, self._spec, self._loop, self._observers, self._see = goal, spec, spec.loop, observers, see
         self._scene = execution.scene
-        self._seeds = np.random.SeedSequence(setup.seed)
+        self._seeds = np.random.SeedSequence(spec.seed)
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
         self._rejections: tuple[Rejection, ...] = ()
@@ -99,18 +96,19 @@ class _Run:
 
     def episode(self) -> Episode:
         arm = MountedArm(self._execution.arm, self._execution.base_pose, self._execution.by_joints)
-        self._tell(lambda observer: observer.begin(self._scene, self._setup, arm))
+        self._tell(lambda observer: observer.begin(self._scene, self._spec, arm))
         self._note(self._execution.start())
         status, reason = self._outcome()
         episode = Episode(
             self._scene,
-            self._setup,
+            self._spec,
             status,
             reason,
             tuple(self._plans),
             tuple(self._steps),
             self._rejections,
             self._execution.motion_planning_time + self._planning.motion_planning_time,
+            versions_of(self._spec),
         )
         self._tell(lambda observer: observer.finished(episode))
         return episode

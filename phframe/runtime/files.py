@@ -1,4 +1,4 @@
-"""Plans and episodes as files: JSON, written whole or not at all.
+"""Plans and episodes as files of JSON.
 
 What a later phframe of the same format adds is passed over; what changes the meaning gets a new format number.
 """
@@ -6,8 +6,6 @@ What a later phframe of the same format adds is passed over; what changes the me
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +13,7 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from phframe.core import Episode, InputError, Plan
+from phframe.core.files import write_file
 from phframe.core.paths import user_path
 
 FORMAT = 2
@@ -27,13 +26,19 @@ def save(value: Plan | Episode, path: str | Path) -> Path:
     """Write a plan or an episode; what was there before stays until the new file is whole.
 
     Raises:
-        InputError: If the file cannot be written.
+        InputError: If the file cannot be written, or an episode was run with an object instead of a name.
     """
     kind = next((name for name, cls in _KINDS.items() if isinstance(value, cls)), None)
     if kind is None:
         raise InputError(f"only a Plan or an Episode can be saved, not {value!r}")
-    content = TypeAdapter(type(value)).dump_python(_bounded(value), mode="json")
-    return write_whole(user_path(path), json.dumps({"phframe": FORMAT, "kind": kind, kind: content}))
+    if isinstance(value, Episode):
+        value.spec.to_json()  # refuses what cannot be stored, which a serializer would wrap
+    return write_file(user_path(path), json.dumps({"phframe": FORMAT, "kind": kind, kind: content_of(value)}))
+
+
+def content_of(value: Plan | Episode) -> Any:
+    """What a file holds of a plan or an episode; of large search trees that is a part."""
+    return TypeAdapter(type(value)).dump_python(_bounded(value), mode="json")
 
 
 def _bounded(value: Plan | Episode) -> Plan | Episode:
@@ -78,25 +83,3 @@ def _decoded(document: Any, source: Path) -> Plan | Episode:
     except (InputError, ValueError, TypeError, OverflowError) as error:
         raise InputError(f"{source}: {error}") from None
     return decoded
-
-
-def write_whole(path: Path, content: str | bytes) -> Path:
-    """Write a file so that it is never seen half-written; text as UTF-8.
-
-    Raises:
-        InputError: If it cannot be written.
-    """
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        try:
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(content.encode() if isinstance(content, str) else content)
-            Path(temporary).chmod(0o644)
-            Path(temporary).replace(path)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
-    except OSError as error:
-        raise InputError(f"cannot write {path}: {error.strerror}") from None
-    return path

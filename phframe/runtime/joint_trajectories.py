@@ -69,7 +69,7 @@ def refuse_no_joints(episode: Episode) -> None:
         raise InputError(f"{episode.scene.name}: no action was carried out ({episode.reason}), so nothing was driven")
     if not all(isinstance(step.trajectory, JointTrajectory) for step in episode.steps):
         raise InputError(
-            f"the episode was carried out in {episode.setup.backend!r}, which moves the gripper and no joints, so it has "
+            f"the episode was carried out in {episode.spec.name_of('backend')!r}, which moves the gripper and no joints, so it has "
             "no joint trajectories. Solve the scene again with a backend that drives joints: --backend mujoco"
         )
 
@@ -79,7 +79,7 @@ def _of_step(number: int, step: Step, episode: Episode, arm: ArmModel[Any]) -> A
     assert isinstance(driven, JointTrajectory), "checked"
     if driven.positions.shape[1] != len(arm.joints):
         raise InputError(
-            f"action {number} drives {driven.positions.shape[1]} joints, but the arm {episode.setup.arm!r} has "
+            f"action {number} drives {driven.positions.shape[1]} joints, but the arm {episode.spec.name_of('arm')!r} has "
             f"{len(arm.joints)}: the episode was run with another one"
         )
     half = (driven.gripper.openings - arm.shape.min_opening) / 2.0
@@ -93,8 +93,8 @@ def as_json(episode: Episode, trajectories: Sequence[ActionTrajectory]) -> str:
     content = {
         "format": FORMAT,
         "scene": episode.scene.name,
-        "arm": episode.setup.arm,
-        "backend": episode.setup.backend,
+        "arm": episode.spec.name_of("arm"),
+        "backend": episode.spec.name_of("backend"),
         "trajectories": [_as_object(each) for each in trajectories],
     }
     return json.dumps(content, allow_nan=False) + "\n"

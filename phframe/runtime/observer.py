@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from phframe.core import ArmModel, ArmShape, BasePose, Episode, Plan, Scene, Setup, State, Step
+from phframe.core import ArmModel, ArmShape, BasePose, Episode, Plan, RunSpec, Scene, State, Step
 
 Frames = Iterable[tuple[float, State]]
 """Seconds since an action began, and the world then: at its beginning, some thirty times a second, and at its end."""
@@ -35,7 +35,7 @@ class MountedArm:
 class Observer:
     """Told of what happens, in this order; each method does nothing unless it is overridden."""
 
-    def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+    def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """An episode begins."""
 
     def planned(self, plan: Plan) -> None:

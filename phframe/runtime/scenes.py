@@ -29,11 +29,11 @@ def find_scene(spec: str | Path | Scene, options: Mapping[str, Any] | None = Non
         return spec
     if not isinstance(spec, str | Path):
         raise InputError(f"a scene is 'suite/name', a file or a Scene, not {spec!r}")
-    if is_file_spec(spec):
+    if isinstance(spec, Path) or is_file_spec(spec):
         if options:
             raise InputError(f"a scene file takes no options, but there is: {', '.join(options)}")
         return read_scene(user_path(spec))
-    suite_name, _, name = str(spec).partition("/")
+    suite_name, _, name = (type(spec)(piece) for piece in spec.partition("/"))
     suites = [entry.name for entry in catalogue().extensions(Kind.SCENES)]
     if suite_name not in suites and ":" not in suite_name:
         raise UnknownNameError("suite of scenes", suite_name, suites, "A scene file ends in .yaml.")

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from phframe.core import Episode
+from phframe.core import Episode, RunSpec
 
 FORMAT = 1
 
@@ -21,18 +21,19 @@ def summarize(episode: Episode, recording: Path | None = None) -> dict[str, Any]
     ``prediction_error`` of the objects that actions moved (m), or null where nothing was predicted or moved; ``noise`` is
     that of what the planner believed, empty where it was told the truth.
     """
-    setup, cost = episode.setup, episode.cost
+    spec, cost = episode.spec, episode.cost
     return {
         "format": FORMAT,
         "scene": episode.scene.name,
-        "planner": setup.planner,
-        "backend": setup.backend,
-        "arm": setup.arm,
-        "plan_backend": setup.plan_backend or setup.backend,
-        "plan_arm": setup.plan_arm or setup.arm,
-        "topology": setup.topology,
-        "seed": setup.seed,
-        "noise": dict(setup.noise),
+        "planner": spec.name_of("planner"),
+        "backend": spec.name_of("backend"),
+        "arm": spec.name_of("arm"),
+        "plan_backend": _planned_with(spec, "backend"),
+        "plan_arm": _planned_with(spec, "arm"),
+        "topology": spec.name_of("topology"),
+        "goal": spec.name_of("goal"),
+        "seed": spec.seed,
+        "noise": dict(spec.noise),
         "status": str(episode.status),
         "reason": episode.reason,
         "actions": episode.pushes,
@@ -49,8 +50,12 @@ def summarize(episode: Episode, recording: Path | None = None) -> dict[str, Any]
         "wall_contact": episode.wall_contact,
         "clean": episode.clean,
         "recording": None if recording is None else str(recording),
-        "versions": dict(setup.versions),
+        "versions": dict(episode.versions),
     }
+
+
+def _planned_with(spec: RunSpec, part: str) -> str:
+    return spec.name_of(part if getattr(spec, f"plan_{part}") is None else f"plan_{part}")
 
 
 def _prediction_error(episode: Episode) -> dict[str, float] | None:

@@ -1,28 +1,13 @@
-"""Versions of what took part, for the record."""
+"""Versions of what takes part in a run, for the record."""
 
 from __future__ import annotations
 
-import platform
-from importlib import metadata
-
-_ALWAYS = ("phframe", "numpy")
-_LIBRARIES = {
-    "pymunk": "pymunk",
-    "mujoco": "mujoco",
-    "pybullet": "pybullet",
-    "ripser": "ripser",
-    "single-linkage": "scipy",
-}
+from phframe.core import RunSpec
+from phframe.core.run_spec import PARTS
+from phframe.registry import Kind, versions
 
 
-def versions(*parts: str) -> dict[str, str]:
-    """Versions of Python, phframe, numpy, and the libraries behind the named backends and engines."""
-    libraries = dict.fromkeys((*_ALWAYS, *(_LIBRARIES[part] for part in parts if part in _LIBRARIES)))
-    return {"python": platform.python_version(), **{name: _version(name) for name in libraries}}
-
-
-def _version(distribution: str) -> str:
-    try:
-        return metadata.version(distribution)
-    except metadata.PackageNotFoundError:
-        return "unknown"
+def versions_of(spec: RunSpec) -> dict[str, str]:
+    """Versions of Python, phframe, and all that the registered parts of a run come from, by distribution."""
+    named = ((Kind(part.removeprefix("plan_")), getattr(spec, part)) for part in PARTS)
+    return versions((kind, name) for kind, name in named if isinstance(name, str))

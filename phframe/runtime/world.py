@@ -56,15 +56,15 @@ class WorldSpec:
 
     Attributes:
         scene: The scene.
-        backend: Registered name of the physics backend.
-        arm: Registered name of the arm.
+        backend: Physics backend: a registered name, a class in a file, or a class.
+        arm: Arm: likewise, or an object.
         backend_options: Of the backend, by key; values or their text.
         arm_options: Of the arm, by key.
     """
 
     scene: Scene
-    backend: str = "pymunk"
-    arm: str = "planar"
+    backend: Any = "pymunk"
+    arm: Any = "planar"
     backend_options: Mapping[str, Any] = field(default_factory=dict)
     arm_options: Mapping[str, Any] = field(default_factory=dict)
 

@@ -17,10 +17,9 @@ import mujoco
 import numpy as np
 
 from phframe.core import FloatArray, InputError, SceneError, yaw_of
-from phframe.core.paths import user_path
+from phframe.core.paths import path_shown, user_path
 from phframe.scenes.foreign import Block, ForeignScene, FreeBody, listed
 from phframe.scenes.mjcf import MOUNT_PREFIX, TARGET_KEY
-from phframe.scenes.wording import path_shown
 
 MAX_BYTES = 20_000_000
 """Larger files are refused unread."""

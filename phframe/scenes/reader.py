@@ -8,9 +8,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from phframe.core import BasePose, Cylinder, InputError, Scene, SceneError, SceneObject, Shelf
+from phframe.core.paths import path_shown, user_path
 from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, CylinderPart, ObjectPart, ScenePart
-from phframe.scenes.wording import path_shown, shortened, shown
+from phframe.scenes.wording import shortened, shown
 from phframe.scenes.yaml_tree import YamlTree, parse_yaml
 
 MAX_BYTES = 1_000_000
@@ -28,7 +29,7 @@ def read_scene(path: str | Path) -> Scene:
         SceneError: If it is no scene of format 1, or a scene that cannot be. Every problem is named.
     """
     source = path_shown(path)
-    return parse_scene(_decoded(_content(Path(path), source), source), source)
+    return parse_scene(_decoded(_content(user_path(path), source), source), source)
 
 
 def parse_scene(text: str, source: str = "scene") -> Scene:

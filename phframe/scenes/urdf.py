@@ -10,40 +10,38 @@ from __future__ import annotations
 import json
 import math
 import re
-import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 
 from phframe.core import Scene, SceneObject, coulomb_with_board
-from phframe.geometry.slabs import PANEL, Slab, slabs
+from phframe.geometry.slabs import BOARD, PANEL, slabs
+from phframe.urdf.model import Color, Link, Robot, RobotJoint, Visual
+from phframe.urdf.solids import Solid, Vector, of_solids
+from phframe.urdf.writer import robot_urdf
 
 FORMAT = 1
 """Of the list of parts."""
 ROOT = "shelf"
 """The link whose frame is the shelf frame."""
 SHELF_FILE, LIST_FILE, FOLDER = "shelf.urdf", "poses.json", "objects"
-WOOD, PLAIN, WANTED = "0.72 0.55 0.38 1", "0.35 0.45 0.6 1", "0.85 0.2 0.15 1"
-Vector = tuple[float, float, float]
+WOOD: Color = (0.72, 0.55, 0.38, 1.0)
+PLAIN: Color = (0.35, 0.45, 0.6, 1.0)
+WANTED: Color = (0.85, 0.2, 0.15, 1.0)
 
 
 def scene_to_urdf(scene: Scene) -> str:
     """The shelf and all objects as one robot in which every link is fixed to ``shelf``."""
-    robot = ET.Element("robot", name=_plain(scene.name))
-    _add_shelf(robot, scene)
+    links, joints = _shelf(scene)
     for link, item in zip(object_links(scene), scene.objects, strict=True):
-        _add_object(robot, link, scene, item)
-        _fix(robot, link, position_of(item), item.yaw)
-    return _written(robot)
+        links.append(_object(link, scene, item))
+        joints.append(RobotJoint(ROOT, link, position_of(item), (0.0, 0.0, float(item.yaw))))
+    return _written(Robot.of(_plain(scene.name), links, joints))
 
 
 def scene_parts(scene: Scene) -> dict[str, str]:
     """The shelf, each object and the list of their poses: texts by the path of their file."""
-    shelf = ET.Element("robot", name=ROOT)
-    _add_shelf(shelf, scene)
-    parts = {SHELF_FILE: _written(shelf)}
+    parts = {SHELF_FILE: _written(Robot.of(ROOT, *_shelf(scene)))}
     for link, item in zip(object_links(scene), scene.objects, strict=True):
-        robot = ET.Element("robot", name=link)
-        _add_object(robot, link, scene, item)
-        parts[f"{FOLDER}/{link}.urdf"] = _written(robot)
+        parts[f"{FOLDER}/{link}.urdf"] = _written(Robot.of(link, [_object(link, scene, item)]))
     return {**parts, LIST_FILE: json.dumps(_list(scene), indent=1, allow_nan=False) + "\n"}
 
 
@@ -80,52 +78,22 @@ def _list(scene: Scene) -> Mapping[str, object]:
     return {"format": FORMAT, "scene": scene.name, "frame": ROOT, "shelf": SHELF_FILE, "objects": rows}
 
 
-def _add_shelf(robot: ET.Element, scene: Scene) -> None:
-    ET.SubElement(robot, "link", name=ROOT)
+def _shelf(scene: Scene) -> tuple[list[Link], list[RobotJoint]]:
+    links, joints = [Link(ROOT)], []
     board, walls = scene.shelf.board_friction, scene.shelf.wall_friction
     for slab in slabs(scene.shelf, PANEL):
-        link = _plain(slab.name)
-        _add_slab(robot, link, slab, 1.0 if slab.name == "board" or board == 0.0 else walls / board)
-        _fix(robot, link, slab.center, 0.0)
+        link, box = _plain(slab.name), Solid("box", slab.size)
+        coefficient = 1.0 if slab.name == BOARD or board == 0.0 else walls / board
+        links.append(Link(link, None, (box,), (Visual(box, WOOD),), coefficient))
+        joints.append(RobotJoint(ROOT, link, slab.center))
+    return links, joints
 
 
-def _add_slab(robot: ET.Element, link: str, slab: Slab, coefficient: float) -> None:
-    element = ET.SubElement(robot, "link", name=link)
-    _add_friction(element, coefficient)
-    _add_solid(element, "box", {"size": _text(slab.size)}, WOOD)
-
-
-def _add_object(robot: ET.Element, link: str, scene: Scene, item: SceneObject) -> None:
-    element = ET.SubElement(robot, "link", name=link)
-    _add_friction(element, coulomb_with_board(scene, item))
-    radius, height, mass = float(item.shape.radius), float(item.shape.height), float(item.mass)
-    inertial = ET.SubElement(element, "inertial")
-    ET.SubElement(inertial, "mass", value=repr(mass))
-    across = repr(mass * (3.0 * radius**2 + height**2) / 12.0)
-    zero = dict.fromkeys(("ixy", "ixz", "iyz"), "0")
-    ET.SubElement(inertial, "inertia", {"ixx": across, "iyy": across, "izz": repr(mass * radius**2 / 2.0), **zero})
-    figures = {"radius": repr(radius), "length": repr(height)}
-    _add_solid(element, "cylinder", figures, WANTED if item.id == scene.target else PLAIN)
-
-
-def _add_friction(link: ET.Element, coefficient: float) -> None:
-    contact = ET.SubElement(link, "contact")
-    ET.SubElement(contact, "lateral_friction", value=repr(float(coefficient)))
-
-
-def _add_solid(link: ET.Element, kind: str, figures: Mapping[str, str], colour: str) -> None:
-    for role in ("visual", "collision"):
-        element = ET.SubElement(link, role)
-        ET.SubElement(ET.SubElement(element, "geometry"), kind, dict(figures))
-        if role == "visual":
-            ET.SubElement(ET.SubElement(element, "material", name=f"{link.get('name')}_colour"), "color", rgba=colour)
-
-
-def _fix(robot: ET.Element, link: str, at: Sequence[float], yaw: float) -> None:
-    joint = ET.SubElement(robot, "joint", name=f"{link}_mount", type="fixed")
-    ET.SubElement(joint, "parent", link=ROOT)
-    ET.SubElement(joint, "child", link=link)
-    ET.SubElement(joint, "origin", xyz=_text(at), rpy=_text((0.0, 0.0, yaw)))
+def _object(link: str, scene: Scene, item: SceneObject) -> Link:
+    solid = Solid("cylinder", (float(item.shape.radius), float(item.shape.height)))
+    color = WANTED if item.id == scene.target else PLAIN
+    inertia = of_solids(float(item.mass), [solid])
+    return Link.of_solids(link, inertia, [solid], color, friction=coulomb_with_board(scene, item))
 
 
 def _plain(name: str) -> str:
@@ -133,10 +101,5 @@ def _plain(name: str) -> str:
     return re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[:60] or "unnamed"
 
 
-def _text(numbers: Iterable[float]) -> str:
-    return " ".join(repr(float(number)) for number in numbers)
-
-
-def _written(robot: ET.Element) -> str:
-    ET.indent(robot)
-    return ET.tostring(robot, encoding="unicode") + "\n"
+def _written(robot: Robot) -> str:
+    return robot_urdf(robot) + "\n"

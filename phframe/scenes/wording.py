@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
-from os import PathLike
 from typing import Any
 
 MOST_SHOWN = 10
@@ -27,12 +26,6 @@ def shown(value: Any) -> str:
 def abridged(text: str) -> str:
     """A text, cut where it is too long for a message."""
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
-
-
-def path_shown(path: str | PathLike[str]) -> str:
-    """A file's path, on one line whatever it holds."""
-    text = str(path)
-    return text if text.isprintable() else ascii(text)
 
 
 def place(path: Sequence[str | int]) -> str:

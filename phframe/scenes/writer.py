@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import uuid
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
-from phframe.core import InputError, Scene, SceneError, SceneObject
+from phframe.core import Scene, SceneError, SceneObject
+from phframe.core.files import write_file
+from phframe.core.paths import user_path
 from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, ScenePart
 from phframe.scenes.shapes import figures_of
-from phframe.scenes.wording import path_shown
 from phframe.scenes.yaml_scalars import plain_scalar
 from phframe.scenes.yaml_tree import YamlTree
 
@@ -39,31 +37,13 @@ def scene_to_yaml(scene: Scene) -> str:
 
 
 def write_scene(scene: Scene, path: str | Path) -> None:
-    """Write a scene file. It appears whole or not at all; one that is there is replaced.
+    """Write a scene file, whole or not at all, as ``phframe.core.files`` does.
 
     Raises:
         InputError: If the file cannot be written.
         SceneError: If a name in the scene cannot be written.
     """
-    text = scene_to_yaml(scene)
-    try:
-        _replace(Path(path).resolve(), text)
-    except (OSError, ValueError, RuntimeError) as error:  # a zero byte in the path; a loop of links
-        reason = getattr(error, "strerror", None) or str(error)
-        raise InputError(f"cannot write the scene file {path_shown(path)}: {reason[:1].lower()}{reason[1:]}") from None
-
-
-def _replace(path: Path, text: str) -> None:
-    temporary = path.with_name(f".{uuid.uuid4().hex}.tmp")
-    try:
-        with temporary.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        temporary.replace(path)
-    finally:
-        with suppress(OSError):
-            temporary.unlink()
+    write_file(user_path(path), scene_to_yaml(scene))
 
 
 def _content(scene: Scene) -> dict[str, Any]:

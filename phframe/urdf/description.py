@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, field_validator
 
 from phframe.core import InputError
+from phframe.urdf.model import Robot
+from phframe.urdf.reader import read_robot
 
 FORMAT = 1
 
@@ -22,7 +26,9 @@ WidthAt = Annotated[tuple[Length, Length], BeforeValidator(_as_tuple)]
 
 
 class _Part(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, validate_by_name=True, validate_by_alias=True
+    )
 
 
 class TipFrame(_Part):
@@ -31,7 +37,7 @@ class TipFrame(_Part):
     Attributes:
         link: The link of the URDF that carries it.
         at: In the frame of that link (m).
-        rpy: Its turn there (rad), about the fixed axes x, y, z.
+        rpy: Its rotation there (rad), about the fixed axes x, y, z.
     """
 
     link: str
@@ -82,7 +88,7 @@ class ArmDescription(_Part):
         phframe: Format of the description.
         urdf: The URDF's file, from the description's folder; empty where the text is given by other means.
         joints: Names of the joints, from the base to the gripper.
-        fingers: Names of the sliding joints of the left and the right finger, closed at their lower limits.
+        fingers: Names of the sliding joints of the left and the right finger.
         tip: Where the fingertip is; None: the URDF has a link ``fingertip``.
         min_opening: Distance between the closed fingers (m).
         home: Joint values of the parked arm, outside the shelf (rad or m).
@@ -90,9 +96,11 @@ class ArmDescription(_Part):
         height: Of the gripper plane above the board (m).
         force_limit: Net contact force above which the arm stalls (N).
         behind: The arm behind what the gripper's link carries.
-        overlapping: Pairs of links, besides those joined to one another, whose covers may overlap: whoever looks for
-            collisions of the arm with itself passes them over.
-        postures: Joint values that a motion planner begins from, besides home, where it looks for a posture.
+        allowed_collisions: Pairs of links, besides those joined to one another, whose collision geometry may overlap:
+            whoever looks for collisions of the arm with itself passes them over. In files the key is ``overlapping``.
+        srdf: An SRDF file, from the description's folder, whose disabled collisions are allowed besides; empty: none.
+        seed_configurations: Joint values that a motion planner begins from, besides home, where it looks for a
+            configuration. In files the key is ``postures``.
     """
 
     phframe: Literal[1] = 1
@@ -106,16 +114,29 @@ class ArmDescription(_Part):
     height: Annotated[float, Field(gt=0.0, le=2.0)]
     force_limit: Annotated[float, Field(gt=0.0)] = 60.0
     behind: tuple[Section, ...] = ()
-    overlapping: tuple[tuple[str, str], ...] = ()
-    postures: tuple[tuple[float, ...], ...] = ()
+    allowed_collisions: Annotated[tuple[tuple[str, str], ...], Field(alias="overlapping")] = ()
+    srdf: str = ""
+    seed_configurations: Annotated[tuple[tuple[float, ...], ...], Field(alias="postures")] = ()
 
 
-def read_description(path: Path) -> tuple[ArmDescription, str]:
-    """The description in a YAML file, and the text of the URDF that it names.
+def read_description(path: Path) -> tuple[ArmDescription, Robot]:
+    """The description in a YAML file, and the robot in the URDF that it names.
 
     Raises:
-        InputError: If a file cannot be read, or the description does not say what it must.
+        InputError: If a file cannot be read, or does not say what it must.
     """
+    description = _validated(path)
+    if not description.urdf:
+        raise InputError(f"{path}: urdf must name the robot's URDF file")
+    urdf = path.parent / description.urdf
+    robot = read_robot(_text(urdf), urdf.parent)
+    if description.srdf:
+        allowed = (*description.allowed_collisions, *_disabled_collisions(path.parent / description.srdf))
+        description = description.model_copy(update={"allowed_collisions": allowed})
+    return description, robot
+
+
+def _validated(path: Path) -> ArmDescription:
     from ruamel.yaml import YAML
     from ruamel.yaml.error import YAMLError
 
@@ -123,14 +144,24 @@ def read_description(path: Path) -> tuple[ArmDescription, str]:
         content = YAML(typ="safe", pure=True).load(_text(path))
         if not isinstance(content, dict):
             raise InputError(f"{path}: a description is made of keys and values, as in 'height: 0.1'")
-        description = ArmDescription.model_validate(content)
+        return ArmDescription.model_validate(content)
     except YAMLError as error:
         raise InputError(f"{path}: not valid YAML: {' '.join(str(error).split())}") from None
     except ValidationError as error:
         raise InputError(f"{path}: " + "; ".join(_sentence(each) for each in error.errors())) from None
-    if not description.urdf:
-        raise InputError(f"{path}: urdf must name the robot's URDF file")
-    return description, _text(path.parent / description.urdf)
+
+
+def _disabled_collisions(path: Path) -> Iterator[tuple[str, str]]:
+    """The pairs of links that an SRDF (http://wiki.ros.org/srdf) takes out of collision checking."""
+    try:
+        root = ET.fromstring(_text(path))
+    except ET.ParseError as error:
+        raise InputError(f"{path}: the SRDF is not XML: {error}") from None
+    for element in root.iter("disable_collisions"):
+        first, second = element.get("link1", ""), element.get("link2", "")
+        if not first or not second:
+            raise InputError(f"{path}: a <disable_collisions> lacks link1 or link2")
+        yield first, second
 
 
 def _text(path: Path) -> str:

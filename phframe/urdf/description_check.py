@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from phframe.core import ArmError, Joint
 from phframe.urdf.description import ArmDescription
-from phframe.urdf.reader import Robot
+from phframe.urdf.model import Robot
 
 
 def check_description(description: ArmDescription, robot: Robot) -> None:
@@ -19,16 +19,19 @@ def check_description(description: ArmDescription, robot: Robot) -> None:
     if twice := sorted({name for name in names if names.count(name) > 1}):
         raise ArmError(f"joint {twice[0]!r} is named twice under 'joints' and 'fingers'")
     joints = [_joint(robot, name) for name in description.joints]
+    if followers := [name for name in description.joints if robot.joint(name).mimic]:
+        raise ArmError(f"joint {followers[0]!r} follows another (mimic); under 'joints' are those that are driven")
     for name in description.fingers:
         _joint(robot, name)
         if robot.joint(name).kind != "prismatic":
             raise ArmError(f"the finger joint {name!r} turns; fingers that slide are needed")
     _check_values("home", description.home, joints)
-    for posture in description.postures:
+    for posture in description.seed_configurations:
         _check_values("a posture", posture, joints)
-    if strange := sorted({link for pair in description.overlapping for link in pair} - set(robot.covers)):
+    if strange := sorted({link for pair in description.allowed_collisions for link in pair} - set(robot.links)):
         raise ArmError(
-            f"'overlapping' names the link {strange[0]!r}, which the URDF has not; there is: {', '.join(robot.covers)}"
+            f"'overlapping' or the SRDF names the link {strange[0]!r}, which the URDF has not; "
+            f"there is: {', '.join(robot.links)}"
         )
 
 
@@ -43,10 +46,10 @@ def _joint(robot: Robot, name: str) -> Joint:
 
 def _faults(joint: Joint) -> Iterator[str]:
     if joint.lower >= joint.upper:
-        yield f"has no room between its limits {joint.lower:g} and {joint.upper:g}"
+        yield f"has no room between its limits {joint.lower:g} and {joint.upper:g} (0 where none is given)"
     for key, value in (("velocity", joint.velocity), ("effort", joint.effort)):
         if value <= 0.0:
-            yield f"has the {key} {value:g}; one above 0 is needed"
+            yield f"has the {key} {value:g} (0 where none is given); the arm drives it, so one above 0 is needed"
 
 
 def _check_values(what: str, values: Sequence[float], joints: Sequence[Joint]) -> None:

@@ -1,53 +1,35 @@
-"""Reads of a URDF text what an arm needs: its covers, how its links hang together, and the limits of its joints."""
+"""Reads a robot from URDF text, as others write it: missing limits, mimic and continuous joints, meshes of packages."""
 
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
-from dataclasses import dataclass
-from math import isfinite
-from typing import Literal
+from math import hypot, isfinite
+from pathlib import Path
+from typing import Literal, cast
 
 from phframe.core import ArmError, Joint
-from phframe.urdf.model import Connection
-from phframe.urdf.solids import ORIGIN, Solid, Vector
+from phframe.urdf.convex_hull import ConvexHull, read_hull
+from phframe.urdf.mesh_files import find_mesh
+from phframe.urdf.model import CollisionGeometry, Color, Link, MeshFile, Mimic, Robot, RobotJoint, Visual
+from phframe.urdf.solids import ORIGIN, Inertia, Solid, Vector
 
 KINDS = ("fixed", "revolute", "continuous", "prismatic")
 TURN = 3.141592653589793
 """Either way, of a joint that turns for ever (rad)."""
+MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+Colors = dict[str, Color | None]
 
 
-@dataclass(frozen=True, slots=True)
-class Robot:
-    """A URDF as far as an arm needs it.
+def read_robot(text: str, folder: Path | None = None) -> Robot:
+    """The robot in a URDF text. Meshes that collide are replaced by their convex hulls; those of visuals stay unread.
 
-    Attributes:
-        covers: Solids that collide, by link.
-        connections: What each link but the root hangs on, by that link.
-        meshes: Links among whose covers is a mesh, of which nothing can be said.
-    """
-
-    covers: Mapping[str, tuple[Solid, ...]]
-    connections: Mapping[str, Connection]
-    meshes: tuple[str, ...] = ()
-
-    def joint(self, name: str) -> Connection:
-        """The connection whose joint bears a name.
-
-        Raises:
-            ArmError: If no joint that moves is called so.
-        """
-        moving = {c.joint.name: c for c in self.connections.values() if c.joint}
-        if name not in moving:
-            raise ArmError(f"the URDF has no moving joint {name!r}; there is: {', '.join(sorted(moving)) or 'none'}")
-        return moving[name]
-
-
-def read_robot(text: str) -> Robot:
-    """The robot in a URDF text.
+    Args:
+        text: The URDF.
+        folder: The URDF's, where meshes are looked for; None: it is a mere text, with absolute paths.
 
     Raises:
-        ArmError: If it is no URDF, or its links do not make one tree.
+        ArmError: If it is no URDF, its links do not make one tree, or a mesh that collides cannot be had.
+        NotInstalledError: If what reads a mesh of this format is not installed.
     """
     try:
         root = ET.fromstring(text)
@@ -55,67 +37,142 @@ def read_robot(text: str) -> Robot:
         raise ArmError(f"the URDF is not XML: {error}") from None
     if root.tag != "robot":
         raise ArmError(f"the URDF begins with <{root.tag}>, not with <robot>")
-    covers = {_attribute(link, "name", "a link"): _covers(link) for link in root.findall("link")}
-    connections = [_connection(joint) for joint in root.findall("joint")]
-    meshes = tuple(
-        link.get("name", "") for link in root.findall("link") if link.find("collision/geometry/mesh") is not None
+    colors: Colors = {material.get("name", ""): _color(material) for material in root.findall("material")}
+    links = [_link(element, folder, colors) for element in root.findall("link")]
+    return Robot.of(root.get("name", "robot"), links, map(_joint, root.findall("joint")))
+
+
+def _link(element: ET.Element, folder: Path | None, colors: Colors) -> Link:
+    name = _attribute(element, "name", "a link")
+    collision = (_collision(each, name, folder) for each in element.findall("collision"))
+    visuals = (_visual(each, name, folder, colors) for each in element.findall("visual"))
+    return Link(
+        name,
+        _inertia(element.find("inertial"), name),
+        tuple(shape for shape in collision if shape is not None),
+        tuple(visual for visual in visuals if visual is not None),
     )
-    robot = Robot(covers, {connection.child: connection for connection in connections}, meshes)
-    _check_tree(robot, connections)
-    return robot
 
 
-def _check_tree(robot: Robot, connections: list[Connection]) -> None:
-    for connection in connections:
-        for link in (connection.parent, connection.child):
-            if link not in robot.covers:
-                raise ArmError(f"a joint of the URDF names the link {link!r}, which does not exist")
-    roots = [link for link in robot.covers if link not in robot.connections]
-    if len(roots) != 1 or len(connections) != len(robot.connections):
-        raise ArmError(f"the links of the URDF must make one tree; without a parent: {', '.join(roots) or 'none'}")
+def _inertia(element: ET.Element | None, link: str) -> Inertia | None:
+    if element is None:
+        return None
+    owner, moments = f"the inertia of link {link!r}", element.find("inertia")
+    at, rpy = _origin(element)
+    numbers = [0.0 if moments is None else _given(moments, key, owner) for key in MOMENTS]
+    xx, xy, xz, yy, yz, zz = numbers
+    inertia = Inertia(_number(element.find("mass"), "value", owner), ORIGIN, (xx, xy, xz, yy, yz, zz))
+    return inertia.moved(at, rpy) if any(rpy) else Inertia(inertia.mass, at, inertia.moments)
 
 
-def _covers(link: ET.Element) -> tuple[Solid, ...]:
-    return tuple(solid for element in link.findall("collision") if (solid := _solid(link, element)) is not None)
+def _collision(element: ET.Element, link: str, folder: Path | None) -> CollisionGeometry | None:
+    shape = _shape(element, link, "collision")
+    if not isinstance(shape, MeshFile):
+        return shape
+    path = find_mesh(shape.file, folder)
+    vertices, triangles = read_hull(path, shape.scale)
+    name, part = _names(element, link, "collision")
+    return ConvexHull(str(path), shape.scale, vertices, triangles, shape.at, shape.rpy, part, name)
 
 
-def _solid(link: ET.Element, element: ET.Element) -> Solid | None:
-    """A collision shape; None for a mesh, of which nothing can be said."""
-    name, (at, rpy) = link.get("name", ""), _origin(element)
-    part = element.get("name", "").removeprefix(name).removesuffix("collision").strip()
-    shape = next(iter(element.find("geometry") or ()), None)
-    match shape.tag if shape is not None else None:
+def _visual(element: ET.Element, link: str, folder: Path | None, colors: Colors) -> Visual | None:
+    shape, material = _shape(element, link, "visual"), element.find("material")
+    color = None if material is None else _color(material) or colors.get(material.get("name", ""))
+    if isinstance(shape, MeshFile):
+        shape = MeshFile(_found(shape.file, folder), shape.scale, shape.at, shape.rpy)
+    return None if shape is None else Visual(shape, color)
+
+
+def _found(file: str, folder: Path | None) -> str:
+    """The path of a file that need not be there."""
+    try:
+        return str(find_mesh(file, folder))
+    except ArmError:
+        return file
+
+
+def _shape(element: ET.Element, link: str, role: str) -> Solid | MeshFile | None:
+    """None where there is no geometry.
+
+    Raises:
+        ArmError: If it is of a kind that is not known.
+    """
+    (at, rpy), (name, part) = _origin(element), _names(element, link, role)
+    geometry = element.find("geometry")
+    shape = None if geometry is None else next(iter(geometry), None)
+    owner = f"the {role} geometry of link {link!r}"
+    if shape is None:
+        return None
+    match shape.tag:
         case "box":
-            return Solid("box", _vector(_attribute(shape, "size", name), name), at, rpy, part)
+            return Solid("box", _vector(_attribute(shape, "size", owner), owner), at, rpy, part, name)
         case "cylinder":
-            return Solid("cylinder", (_number(shape, "radius", name), _number(shape, "length", name)), at, rpy, part)
+            size = _number(shape, "radius", owner), _number(shape, "length", owner)
+            return Solid("cylinder", size, at, rpy, part, name)
         case "sphere":
-            return Solid("sphere", (_number(shape, "radius", name),), at, rpy, part)
-        case _:
-            return None
+            return Solid("sphere", (_number(shape, "radius", owner),), at, rpy, part, name)
+        case "mesh":
+            scale = _vector(shape.get("scale", "1 1 1"), owner)
+            return MeshFile(_attribute(shape, "filename", owner), scale, at, rpy)
+    raise ArmError(f"{owner} in the URDF is a {shape.tag!r}; there is: box, cylinder, sphere, mesh")
 
 
-def _connection(element: ET.Element) -> Connection:
+def _names(element: ET.Element, link: str, role: str) -> tuple[str, str]:
+    """Name of a shape without its role, and without its link."""
+    name = element.get("name", "").removesuffix(role).strip()
+    return name, name.removeprefix(link).strip()
+
+
+def _color(material: ET.Element) -> Color | None:
+    element = material.find("color")
+    numbers = [] if element is None else _numbers(element.get("rgba", ""), "a colour")
+    return cast(Color, tuple(numbers)) if len(numbers) == 4 else None
+
+
+def _joint(element: ET.Element) -> RobotJoint:
     name, kind = _attribute(element, "name", "a joint"), element.get("type", "")
     if kind not in KINDS:
         raise ArmError(f"joint {name!r} of the URDF is {kind!r}; an arm has joints that are {', '.join(KINDS)}")
-    parent, child = (_attribute(element.find(tag), "link", f"joint {name!r}") for tag in ("parent", "child"))
-    at, rpy = _origin(element)
+    owner, (at, rpy) = f"joint {name!r}", _origin(element)
+    parent, child = (_attribute(element.find(tag), "link", owner) for tag in ("parent", "child"))
     if kind == "fixed":
-        return Connection(parent, child, at, rpy)
-    axis_element, mimic = element.find("axis"), element.find("mimic")
-    axis = (1.0, 0.0, 0.0) if axis_element is None else _vector(axis_element.get("xyz", "1 0 0"), name)
-    moves: Literal["revolute", "prismatic"] = "prismatic" if kind == "prismatic" else "revolute"
-    follows = "" if mimic is None else mimic.get("joint", "")
-    return Connection(parent, child, at, rpy, _joint(name, kind, element.find("limit")), moves, axis, follows)
+        return RobotJoint(parent, child, at, rpy, fixed_name=name)
+    dynamics = element.find("dynamics")
+    return RobotJoint(
+        parent,
+        child,
+        at,
+        rpy,
+        _limits(name, kind, element.find("limit")),
+        cast(Literal["revolute", "continuous", "prismatic"], kind),
+        _axis(element.find("axis"), owner),
+        _mimic(element.find("mimic"), owner),
+        _given(dynamics, "damping", owner),
+        _given(dynamics, "friction", owner),
+    )
 
 
-def _joint(name: str, kind: str, limit: ET.Element | None) -> Joint:
-    what = f"joint {name!r}"
-    if limit is None:
-        raise ArmError(f"{what} of the URDF has no <limit>; lower, upper, velocity and effort are needed")
-    bounds = (-TURN, TURN) if kind == "continuous" else (_number(limit, "lower", what), _number(limit, "upper", what))
-    return Joint(name, *bounds, velocity=_number(limit, "velocity", what), effort=_number(limit, "effort", what))
+def _axis(element: ET.Element | None, owner: str) -> Vector:
+    x, y, z = (1.0, 0.0, 0.0) if element is None else _vector(element.get("xyz", "1 0 0"), owner)
+    length = hypot(x, y, z)
+    if length == 0.0:
+        raise ArmError(f"{owner} of the URDF has an axis of no length")
+    return x / length, y / length, z / length
+
+
+def _mimic(element: ET.Element | None, owner: str) -> Mimic | None:
+    if element is None:
+        return None
+    leader = _attribute(element, "joint", f"the mimic of {owner}")
+    return Mimic(leader, _given(element, "multiplier", owner, 1.0), _given(element, "offset", owner))
+
+
+def _limits(name: str, kind: str, limit: ET.Element | None) -> Joint:
+    """What is not given is 0, as the standard has it: joints that are not driven may do without."""
+    lower, upper, velocity, effort = (
+        _given(limit, key, f"joint {name!r}") for key in ("lower", "upper", "velocity", "effort")
+    )
+    return Joint(name, *((-TURN, TURN) if kind == "continuous" else (lower, upper)), velocity=velocity, effort=effort)
 
 
 def _origin(element: ET.Element) -> tuple[Vector, Vector]:
@@ -132,15 +189,24 @@ def _attribute(element: ET.Element | None, key: str, owner: str) -> str:
     return value
 
 
+def _given(element: ET.Element | None, key: str, owner: str, otherwise: float = 0.0) -> float:
+    value = None if element is None else element.get(key)
+    return otherwise if value is None else _finite(value, owner)
+
+
 def _number(element: ET.Element | None, key: str, owner: str) -> float:
     return _finite(_attribute(element, key, owner), owner)
 
 
 def _vector(text: str, owner: str) -> Vector:
-    numbers = [_finite(word, owner) for word in text.split()]
+    numbers = _numbers(text, owner)
     if len(numbers) != 3:
         raise ArmError(f"{owner} of the URDF has {text!r} where three numbers are needed")
     return numbers[0], numbers[1], numbers[2]
+
+
+def _numbers(text: str, owner: str) -> list[float]:
+    return [_finite(word, owner) for word in text.split()]
 
 
 def _finite(text: str, owner: str) -> float:

@@ -25,8 +25,9 @@ class Solid:
         kind: Its shape.
         size: Box: lengths along x, y, z (m). Cylinder: radius and length, along its own z. Sphere: radius.
         at: Its centre (m).
-        rpy: Its turn (rad): about the fixed axes x, then y, then z, as in URDF.
-        part: What it covers, such as ``barrel``.
+        rpy: Its rotation (rad): about the fixed axes x, then y, then z, as in URDF.
+        part: What it is of, such as ``barrel``.
+        name: Of its element in the URDF, without what it is for; empty: of link and part.
     """
 
     kind: Literal["box", "cylinder", "sphere"]
@@ -34,6 +35,7 @@ class Solid:
     at: Vector = ORIGIN
     rpy: Vector = ORIGIN
     part: str = ""
+    name: str = ""
 
     @property
     def volume(self) -> float:
@@ -89,6 +91,14 @@ class Inertia:
     center: Vector
     moments: tuple[float, float, float, float, float, float]
 
+    @classmethod
+    def of(cls, mass: float, center: FloatArray, matrix: FloatArray) -> Inertia:
+        """The inertia of a mass (kg), its centre ``(3,)`` (m) and moments as a matrix ``(3, 3)`` (kg m^2)."""
+        cells = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
+        xx, xy, xz, yy, yz, zz = (float(matrix[cell]) for cell in cells)
+        x, y, z = (float(value) for value in center)
+        return cls(mass, (x, y, z), (xx, xy, xz, yy, yz, zz))
+
     @property
     def matrix(self) -> FloatArray:
         """The moments as a matrix ``(3, 3)``."""
@@ -96,10 +106,10 @@ class Inertia:
         return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
     def moved(self, at: Vector, rpy: Vector) -> Inertia:
-        """The same body, given in a frame in which its own frame stands at a place (m) and a turn (rad)."""
+        """The same body, given in a frame in which its own frame stands at a place (m) and a rotation (rad)."""
         axes = rotation(rpy)
         center = np.asarray(at) + axes @ np.asarray(self.center)
-        return _inertia(self.mass, center, axes @ self.matrix @ axes.T)
+        return Inertia.of(self.mass, center, axes @ self.matrix @ axes.T)
 
 
 def of_solids(mass: float, solids: Sequence[Solid]) -> Inertia:
@@ -108,7 +118,7 @@ def of_solids(mass: float, solids: Sequence[Solid]) -> Inertia:
     fractions = [mass * solid.volume / volume for solid in solids]
     return together(
         [
-            _inertia(fraction, np.asarray(solid.at), solid.moments(fraction))
+            Inertia.of(fraction, np.asarray(solid.at), solid.moments(fraction))
             for fraction, solid in zip(fractions, solids, strict=True)
         ]
     )
@@ -122,7 +132,7 @@ def together(parts: Sequence[Inertia]) -> Inertia:
     moments = np.zeros((3, 3))
     for part, arm in zip(parts, centers - center, strict=True):
         moments += part.matrix + part.mass * (np.eye(3) * (arm @ arm) - np.outer(arm, arm))
-    return _inertia(float(masses.sum()), center, moments)
+    return Inertia.of(float(masses.sum()), center, moments)
 
 
 def _prism(radius: float, height: float) -> FloatArray:
@@ -132,15 +142,8 @@ def _prism(radius: float, height: float) -> FloatArray:
     return np.column_stack([around * np.cos(angles), around * np.sin(angles), np.full(FACETS, height)])
 
 
-def _inertia(mass: float, center: FloatArray, matrix: FloatArray) -> Inertia:
-    cells = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
-    xx, xy, xz, yy, yz, zz = (float(matrix[cell]) for cell in cells)
-    x, y, z = (float(value) for value in center)
-    return Inertia(mass, (x, y, z), (xx, xy, xz, yy, yz, zz))
-
-
 def rotation(rpy: Sequence[float]) -> FloatArray:
-    """The matrix ``(3, 3)`` of a turn about the fixed axes x, then y, then z (rad)."""
+    """The rotation matrix ``(3, 3)`` about the fixed axes x, then y, then z (rad)."""
     (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
     return np.array(
         [
@@ -149,3 +152,18 @@ def rotation(rpy: Sequence[float]) -> FloatArray:
             [-sp, cp * sr, cp * cr],
         ]
     )
+
+
+def axis_rotation(axis: Sequence[float], angle: float) -> FloatArray:
+    """The rotation matrix ``(3, 3)`` about a unit vector ``(3,)`` by an angle (rad): I + sin K + (1 - cos) K^2 (Rodrigues)."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross)
+
+
+def roll_pitch_yaw(matrix: FloatArray) -> Vector:
+    """The rotation about the fixed axes x, y, z (rad) that a rotation matrix ``(3, 3)`` stands for."""
+    pitch = float(np.arcsin(np.clip(-matrix[2, 0], -1.0, 1.0)))
+    if abs(matrix[2, 0]) > 1.0 - 1e-12:
+        return float(np.arctan2(-matrix[1, 2], matrix[1, 1])), pitch, 0.0
+    return float(np.arctan2(matrix[2, 1], matrix[2, 2])), pitch, float(np.arctan2(matrix[1, 0], matrix[0, 0]))

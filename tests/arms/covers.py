@@ -28,8 +28,8 @@ class Covers:
         rows = [self._model.idx_qs[self._model.getJointId(joint.name)] for joint in arm.joints]
         self._rows = np.array(rows)
         self._points = {
-            self._model.getFrameId(link): np.vstack([surface(solid) for solid in solids])
-            for link, solids in read_robot(arm.urdf()).covers.items()
+            self._model.getFrameId(link): np.vstack([surface(solid) for solid in solids if isinstance(solid, Solid)])
+            for link, solids in read_robot(arm.urdf()).collision_geometry.items()
             if solids and link in links
         }
         self._arm = arm

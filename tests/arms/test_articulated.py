@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +25,9 @@ from phframe.core import (
     compose,
     planar_pose,
 )
-from phframe.urdf.model import Connection, Link, robot_urdf
+from phframe.urdf.model import Link, Mimic, Robot, RobotJoint
 from phframe.urdf.solids import Solid, of_solids
+from phframe.urdf.writer import robot_urdf
 
 pytestmark = pytest.mark.needs_baxter
 
@@ -50,11 +52,13 @@ DESCRIPTION: dict[str, Any] = {
 def urdf(kind: str = "prismatic") -> str:
     """The robot: links 0.35, 0.3 and 0.1 m long, and a palm with two fingers that slide."""
     names = ("base", "tower", "upper", "fore", "hand", "knuckle", "palm", "left_finger", "right_finger")
-    links = [Link(name, of_solids(1.0, [BOX]), (BOX,) if name in ("upper", "fore") else ()) for name in names[:6]]
+    links = [
+        Link.of_solids(name, of_solids(1.0, [BOX]), (BOX,) if name in ("upper", "fore") else ()) for name in names[:6]
+    ]
     palm = (Solid("box", (0.04, 0.14, 0.05), (0.04, 0.0, 0.0)), Solid("cylinder", (0.03, 0.04), (0.0, 0.0, 0.0)))
-    links.append(Link("palm", of_solids(0.5, palm), palm))
+    links.append(Link.of_solids("palm", of_solids(0.5, palm), palm))
     finger = Solid("box", (0.08, 0.02, 0.03), (0.04, 0.0, 0.0))
-    links += [Link(name, of_solids(0.05, [finger]), (finger,)) for name in names[7:]]
+    links += [Link.of_solids(name, of_solids(0.05, [finger]), (finger,)) for name in names[7:]]
     turn = {"velocity": 2.0, "effort": 40.0}
     z, y, x = (0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)
     chain = [
@@ -65,12 +69,13 @@ def urdf(kind: str = "prismatic") -> str:
         ("hand", "knuckle", (0.05, 0.0, 0.0), Joint("tilt", -1.0, 1.0, **turn), "revolute", y),
         ("knuckle", "palm", (0.05, 0.0, 0.0), Joint("roll", -3.0, 3.0, **turn), "revolute", x),
     ]
-    connections = [Connection(a, b, at, joint=j, kind=k, axis=axis) for a, b, at, j, k, axis in chain]  # type: ignore[arg-type]
+    joints = [RobotJoint(a, b, at, joint=j, kind=k, axis=axis) for a, b, at, j, k, axis in chain]  # type: ignore[arg-type]
     for name, sign, follows in (("left", 1.0, ""), ("right", -1.0, "left_slide")):
         joint = Joint(f"{name}_slide", 0.0, 0.03, velocity=0.1, effort=20.0)
         at, axis = (0.06, sign * 0.015, 0.0), (0.0, sign, 0.0)
-        connections.append(Connection("palm", f"{name}_finger", at, (0.0, 0.0, 0.0), joint, kind, axis, follows))  # type: ignore[arg-type]
-    return robot_urdf("lift_arm", links, connections)
+        mimic = Mimic(follows) if follows else None
+        joints.append(RobotJoint("palm", f"{name}_finger", at, (0.0, 0.0, 0.0), joint, kind, axis, mimic))  # type: ignore[arg-type]
+    return robot_urdf(Robot.of("lift_arm", links, joints))
 
 
 def arm(folder: Path, text: str | None = None, **changes: Any) -> DescribedArm:
@@ -93,7 +98,7 @@ def test_a_robot_is_two_files(tmp_path: Path) -> None:
     assert robot.inverse(planar_pose(0.6, 0.1, 0.9)) is None, "higher than the lift goes"
 
 
-def test_its_outlines_come_from_its_covers_and_the_description(tmp_path: Path) -> None:
+def test_its_outlines_come_from_its_collision_geometry_and_the_description(tmp_path: Path) -> None:
     shape = arm(tmp_path).shape
     by_part = {outline.part: outline for outline in shape.closed}
     assert set(by_part) == {"palm 0", "palm 1", "left finger", "right finger", "forearm"}
@@ -133,7 +138,10 @@ def test_a_shelf_that_stands_askew_is_where_it_is_described(tmp_path: Path) -> N
         ({"postures": [[0.0, 1.0]]}, "a posture has 2 values for 6 joints"),
         ({"postures": [[9.0, 0.0, 0.0, 0.0, 0.0, 0.0]]}, "at a posture lift is 9, beyond its limits"),
         ({"postures": [[float("nan")] * 6]}, "arm.yaml: postures.0.0: .* finite"),
-        ({"overlapping": [["palm", "thumb"]]}, "'overlapping' names the link 'thumb', which the URDF has not"),
+        (
+            {"overlapping": [["palm", "thumb"]]},
+            "'overlapping' or the SRDF names the link 'thumb', which the URDF has not",
+        ),
         ({"behind": [{**BEHIND, "widths": [[0.14, 0.05]]}]}, "widths: at least two pairs"),
         ({"behind": [{**BEHIND, "widths": [[0.4, 0.1], [0.14, 0.05]]}]}, "the nearest first"),
     ],
@@ -152,7 +160,10 @@ def test_a_description_that_cannot_be_is_told(tmp_path: Path, changes: dict[str,
         (urdf().replace('type="revolute"', 'type="floating"', 1), "'floating'; an arm has joints that are fixed"),
         (urdf().replace('upper="2.5"', 'upper="nan"', 1), "'nan' where a finite number is needed"),
         (urdf().replace('upper="2.5"', 'upper="wide"', 1), "'wide' where a number is needed"),
-        (urdf().replace('upper="2.5" ', "", 1), "joint 'shoulder' of the URDF has no upper"),
+        (
+            urdf().replace('lower="-2.5" upper="2.5" ', "", 1),
+            "'shoulder' of the URDF has no room between its limits 0 and 0",
+        ),
         (urdf().replace('xyz="0.05 0.0 0.0"', 'xyz="0.05 0.0"', 1), "'0.05 0.0' where three numbers are needed"),
         (urdf("revolute"), "the finger joint 'left_slide' turns"),
         (urdf().replace('velocity="2.0"', 'velocity="0.0"', 1), "joint 'shoulder' of the URDF has the velocity 0"),
@@ -170,12 +181,27 @@ def test_a_list_is_no_description(tmp_path: Path) -> None:
         DescribedArm(DescribedArmOptions(description=tmp_path / "list.yaml")).urdf()
 
 
-def test_covers_that_are_meshes_are_not_moved_by_joints(tmp_path: Path) -> None:
-    text = urdf().replace('<box size="0.2 0.06 0.06" />', '<mesh filename="upper.stl" />')
-    robot = arm(tmp_path, text)
-    scene = Scene("shelf", SHELF, (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
-    with pytest.raises(ArmError, match="the collision shape of link 'upper' in the URDF is a mesh"):
-        robot.motion_planner(scene, robot.default_base_pose(SHELF))
+@pytest.mark.parametrize(
+    ("tip", "said"),
+    [
+        ((0.16, 0.0, 0.0), "the gripper's collision geometry ends 0.02 m behind the fingertip"),
+        ((0.14, 0.1, 0.0), "the left finger, link 'left_finger', is on the other side of the fingertip"),
+    ],
+)
+def test_a_tip_that_is_not_at_the_fingers_is_told(tmp_path: Path, tip: tuple[float, ...], said: str) -> None:
+    robot = arm(tmp_path, tip={"link": "palm", "at": list(tip)})
+    with pytest.raises(ArmError, match=said):
+        _ = robot.shape
+
+
+def test_a_hand_without_collision_geometry_is_told(tmp_path: Path) -> None:
+    root = ET.fromstring(urdf())
+    for link in root.findall("link"):
+        for element in link.findall("collision"):
+            link.remove(element)
+    robot = arm(tmp_path, ET.tostring(root, encoding="unicode"))
+    with pytest.raises(ArmError, match="the left finger, link 'left_finger', has no collision geometry"):
+        _ = robot.shape
 
 
 def test_files_that_are_not_there_or_not_text_are_told(tmp_path: Path) -> None:
@@ -215,13 +241,13 @@ def test_the_example_solves_a_scene_by_its_joints() -> None:
 def test_closed_fingers_may_touch_one_another() -> None:
     pytest.importorskip("ompl")
     from phframe.motion.coal_ import CollisionModel
+    from phframe.motion.collision_checking import CollisionContext
 
     example = DescribedArm(DescribedArmOptions())
-    names, fingers = example.description.joints, example.description.fingers
+    description = example.description.model_copy(update={"overlapping": ()})
     scene = Scene("shelf", SHELF, (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
-    model = CollisionModel(example.urdf(), names, fingers, (), scene, example.default_base_pose(SHELF))
-    model.place(scene.initial_state())
-    model.open(np.zeros(2))
-    assert model.collisions(example.home) == ()
+    model = CollisionModel(example, description, scene, example.default_base_pose(SHELF), 0.0, 0.0)
+    checker = model.checker(CollisionContext(scene.initial_state(), opening=0.0))
+    assert checker.collisions(example.home) == ()
     folded = np.array([0.0, 0.5, 2.6, 0.0, 0.0, 0.0])
-    assert ("base", "forearm") in model.collisions(folded), "whatever else meets does collide"
+    assert ("base", "forearm") in checker.collisions(folded), "whatever else meets does collide"

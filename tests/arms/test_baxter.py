@@ -137,13 +137,6 @@ def test_a_straight_insertion_from_home_is_followed_without_a_jump(y: float) -> 
         q = following
 
 
-def test_self_motion_leaves_the_fingertip_where_it_is() -> None:
-    direction = LEFT.kinematics.self_motion(LEFT.home)
-    assert abs(float(np.linalg.norm(direction)) - 1.0) < 1e-9
-    moved = LEFT.forward(LEFT.home + 1e-4 * direction)
-    np.testing.assert_allclose(moved, LEFT.forward(LEFT.home), atol=1e-7)
-
-
 def test_poses_that_no_arm_has_are_told() -> None:
     assert LEFT.inverse(planar_pose(3.0, 0.0, 0.3)) is None
     assert LEFT.inverse(planar_pose(-0.6, -0.6, 0.3)) is None

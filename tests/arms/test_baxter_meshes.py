@@ -35,7 +35,7 @@ def surfaces(side: Side) -> dict[str, FloatArray]:
 
 @pytest.mark.parametrize("side", SIDES)
 def test_every_link_with_covers_has_a_mesh_where_they_are(side: Side) -> None:
-    covers = {link: solids for link, solids in read_robot(baxter(side).urdf()).covers.items() if solids}
+    covers = {link: solids for link, solids in read_robot(baxter(side).urdf()).collision_geometry.items() if solids}
     found = surfaces(side)
     assert set(found) == set(covers) | NO_COVERS
     for link, solids in covers.items():

@@ -13,6 +13,7 @@ pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import Side
 from phframe.core import FloatArray, Shelf
+from phframe.urdf.model import CollisionGeometry, Mimic
 from phframe.urdf.reader import read_robot
 from phframe.urdf.solids import Solid
 from tests.arms.baxter_arm import SIDES, baxter
@@ -86,9 +87,10 @@ COVERS: dict[tuple[str, str], tuple[str, tuple[float, ...]]] = {
 
 
 @pytest.mark.parametrize(("link", "part"), COVERS)
-def test_covers_are_as_large_as_the_real_ones(link: str, part: str) -> None:
-    (solid,) = (solid for solid in read_robot(baxter("left").urdf()).covers[link] if solid.part == part)
+def test_collision_geometry_is_as_large_as_the_real_ones(link: str, part: str) -> None:
+    (solid,) = (solid for solid in read_robot(baxter("left").urdf()).collision_geometry[link] if solid.part == part)
     kind, size = COVERS[link, part]
+    assert isinstance(solid, Solid)
     assert solid.kind == kind
     np.testing.assert_allclose(solid.size, size, atol=5e-4)
 
@@ -99,15 +101,18 @@ def test_fingers_are_coupled_and_take_what_is_60_mm_wide(side: Side) -> None:
     robot = read_robot(arm.urdf())
     left, right = (robot.joint(joint.name) for joint in arm.fingers.joints)
     assert left.joint is not None
-    assert right.follows == left.joint.name
+    assert right.mimic == Mimic(left.joint.name)
     assert (arm.shape.min_opening, arm.shape.max_opening) == pytest.approx((0.035, 0.0767), abs=1e-4)
     gap = (
-        left.at[1] + inner(robot.covers[arm.fingers.links[0]]) - right.at[1] + inner(robot.covers[arm.fingers.links[1]])
+        left.at[1]
+        + inner(robot.collision_geometry[arm.fingers.links[0]])
+        - right.at[1]
+        + inner(robot.collision_geometry[arm.fingers.links[1]])
     )
     assert gap == pytest.approx(arm.shape.min_opening, abs=1e-9)
 
 
-def inner(solids: tuple[Solid, ...]) -> float:
+def inner(solids: tuple[CollisionGeometry, ...]) -> float:
     """How near a pad is to the gripper's axis, from the finger's joint (m); negative where it is nearer than that."""
     (pad,) = (solid for solid in solids if solid.part == "pad")
     return float(min(pad.corners()[:, 1], key=abs)) * (1.0 if pad.at[1] > 0.0 else -1.0)
@@ -117,10 +122,10 @@ def inner(solids: tuple[Solid, ...]) -> float:
 def test_the_idle_arm_does_not_move_and_keeps_out_of_the_way(side: Side) -> None:
     arm = baxter(side)
     robot, shelf = read_robot(arm.urdf()), Shelf(0.594, 0.584)
-    moving = {connection.joint.name for connection in robot.connections.values() if connection.joint}
+    moving = {connection.joint.name for connection in robot.parent_joints.values() if connection.joint}
     assert moving == {joint.name for joint in (*arm.joints, *arm.fingers.joints)}
     other = "right" if side == "left" else "left"
-    idle = tuple(link for link in robot.covers if link.startswith(f"{other}_"))
+    idle = tuple(link for link in robot.collision_geometry if link.startswith(f"{other}_"))
     assert len(idle) == 10
     points = Covers(arm, arm.default_base_pose(shelf), idle).in_shelf(arm.home)
     outside = (points[:, 0] < -0.1) | (points[:, 1] < -0.3) | (points[:, 1] > shelf.width + 0.3)
@@ -136,7 +141,7 @@ def test_at_home_the_arm_is_before_the_mouth_and_clear_of_the_body(side: Side) -
     points = Covers(arm, base_pose, links).in_shelf(arm.home)
     assert float(points[:, 0].max()) < 0.0
     seen_from_base = points - [base_pose.x, base_pose.y, base_pose.z]
-    for box in figures.TORSO_COVERS:
+    for box in figures.TORSO_GEOMETRY:
         inside = (np.abs(seen_from_base - np.array(box.at)) < np.array(box.size) / 2.0).all(axis=1)
         assert not inside.any(), box.part
 
@@ -165,9 +170,9 @@ def test_the_covers_overlap_nowhere_but_where_it_is_said(side: Side) -> None:
     model = mujoco.MjModel.from_xml_string(arm.urdf().replace("</robot>", keep))
     data = mujoco.MjData(model)
     names = [model.body(number).name for number in range(model.nbody)]
-    said = {frozenset(pair) for pair in arm.description.overlapping}
-    assert all(link in read_robot(arm.urdf()).covers for pair in said for link in pair)
-    parents = {frozenset((c.parent, c.child)) for c in read_robot(arm.urdf()).connections.values()}
+    said = {frozenset(pair) for pair in arm.description.allowed_collisions}
+    assert all(link in read_robot(arm.urdf()).collision_geometry for pair in said for link in pair)
+    parents = {frozenset((c.parent, c.child)) for c in read_robot(arm.urdf()).parent_joints.values()}
     for opening in (0.0, figures.FINGER_TRAVEL):
         values = {joint.name: value for joint, value in zip(arm.joints, arm.home, strict=True)}
         for name, value in {**values, **dict.fromkeys((j.name for j in arm.fingers.joints), opening)}.items():

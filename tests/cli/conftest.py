@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from textwrap import dedent
@@ -66,6 +67,16 @@ def spawn(tmp_path: Path) -> Iterator[Spawn]:
         if process.poll() is None:
             process.kill()
         process.communicate()
+
+
+def until(happened: Callable[[], object], alive: subprocess.Popen[str] | None = None) -> None:
+    """Wait for something that must happen, however slow the machine; a minute is for what never does."""
+    for _ in range(6000):
+        if happened():
+            return
+        assert alive is None or alive.poll() is None, alive.communicate()
+        time.sleep(0.01)
+    pytest.fail("it did not happen")
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.arms.reach import reachability
+from phframe.motion.reachability import reachability
 from phframe.runtime.scenes import find_scene
 from tests.cli.conftest import Invoke, Run
 
@@ -15,7 +15,7 @@ def test_the_shares_are_those_of_the_map(invoke: Invoke, workplace: Path) -> Non
     scene, arm = find_scene("papallas/s02"), PlanarArm(PlanarArmOptions(link_width=0.5))
     result = invoke("arm", "reach", "--scene", "papallas/s02", "--option", "arm.link_width=0.5", "--json")
     assert result.exit_code == 0
-    fractions, reach = json.loads(result.stdout), reachability(scene, arm, arm.default_base_pose(scene.shelf))
+    fractions, reach = json.loads(result.stdout), reachability(scene.shelf, arm, arm.default_base_pose(scene.shelf))
     assert fractions["fraction"] == reach.fraction < 0.7
     assert fractions["straight"] < fractions["fraction"]
     assert len(fractions["depths"]) == len(fractions["fraction_at_depth"]) == len(reach.depths)
@@ -62,8 +62,10 @@ def test_without_matplotlib_it_says_what_to_install(run: Run, tmp_path: Path, wo
         (["reach", "--mount", "1", "0"], "--mount"),
         (["reach", "--option", "margin=1"], "no planner here"),
         (["reach", "--option", "arm.link_width=0"], "link_width"),
-        (["reach", "--out", "-"], "standard output"),
-        (["reach", "--out", "."], "directory"),
+        (["reach", "--out", "-"], "--out FILE.png"),
+        (["reach", "--out", "."], "--out FILE.png"),
+        (["reach", "--out", "reach.jpg", "--scene", "no/such"], "--out FILE.png"),
+        (["reach", "--out", "reach"], "--out FILE.png"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )

@@ -30,3 +30,13 @@ def test_the_shell_is_offered_names_and_options(run: Run) -> None:
     done = run(_PHFRAME_COMPLETE="complete_bash", COMP_WORDS=words, COMP_CWORD="6")
     assert {"margin=", "arm.link_width=", "scenes.count="} <= set(done.stdout.split())
     assert done.stderr == ""
+
+
+@pytest.mark.slow
+def test_tab_runs_no_file(run: Run) -> None:
+    Path("mine.py").write_text("from pathlib import Path\nPath('ran').touch()\n")
+    words = "phframe solve random/0 --planner ./mine.py:Mine --arm ./mine.py:Mine --option "
+    done = run(_PHFRAME_COMPLETE="complete_bash", COMP_WORDS=words, COMP_CWORD="8")
+    assert "scenes.count=" in done.stdout
+    assert done.stderr == ""
+    assert not Path("ran").exists()

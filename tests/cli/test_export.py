@@ -3,7 +3,6 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -75,15 +74,34 @@ def test_a_folder_that_cannot_be_written_leaves_nothing(invoke: Invoke, workplac
     assert list(workplace.iterdir()) == []
 
 
-def test_a_folder_is_whole_or_not_there(invoke: Invoke, workplace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(path: Path, *_: Any, **__: Any) -> None:
-        if path.name == "poses.json":
-            raise OSError(28, "No space left on device")
+def test_what_is_no_regular_file_is_never_replaced(invoke: Invoke, workplace: Path) -> None:
+    Path("link").symlink_to("there.xml")
+    os.mkfifo("pipe")
+    kept = Path("kept.xml")
+    kept.write_text("before")
+    kept.chmod(0o600)
+    assert invoke("export", "vieira/basic", "--format", "mjcf", "--out", "link").exit_code == 0
+    assert invoke("export", "vieira/basic", "--out", "kept.xml", "--force").exit_code == 0
+    assert invoke("export", "vieira/basic", "--format", "mjcf", "--out", "/dev/null").exit_code == 0
+    refused = invoke("export", "vieira/basic", "--format", "mjcf", "--out", "pipe", "--force")
+    assert (refused.exit_code, refused.stderr.count("\n")) == (2, 1)
+    assert Path("link").is_symlink()
+    assert Path("there.xml").read_text() == kept.read_text() == BASIC
+    assert kept.stat().st_mode & 0o777 == 0o600
+    assert Path("pipe").is_fifo()
+    assert Path("/dev/null").is_char_device()
+    assert sorted(each.name for each in workplace.iterdir()) == ["kept.xml", "link", "pipe", "there.xml"]
 
-    monkeypatch.setattr(Path, "write_text", full)
-    result = invoke("export", "vieira/basic", "--format", "urdf-parts", "--out", "parts")
-    assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
-    assert "No space left" in result.stderr
+
+def test_a_tilde_is_the_home_also_after_an_equals_sign(
+    invoke: Invoke, workplace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    assert invoke("export", "vieira/basic", "--out=~/a.xml").exit_code == 0
+    assert invoke("solve", "vieira/simple-03", "--no-rerun", "-q", "--out=~/run").exit_code == 0
+    assert invoke("export", "~/run", "--format", "mjcf", "--out=~/b.xml").exit_code == 0
+    assert sorted(each.name for each in (tmp_path / "home").iterdir()) == ["a.xml", "b.xml", "run"]
+    assert sorted(each.name for each in (tmp_path / "home" / "run").iterdir()) == ["episode.json", "summary.json"]
     assert list(workplace.iterdir()) == []
 
 
@@ -126,6 +144,7 @@ def test_a_run_in_mujoco_becomes_trajectories(invoke: Invoke) -> None:
         (["vieira/basic", "--out", "folder"], "is a directory"),
         (["vieira/basic", "--out", "file/below.xml"], "file"),
         (["vieira/basic", "--out", "zero\0byte"], "zero byte"),
+        (["vieira/basic", "--out", ""], "is not a path"),
         (["vieira/basic", "--out", "a" * 300], "cannot write"),
         (["folder"], "holds no episode.json"),
         (["absent.json"], "cannot read"),

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import signal
-import time
 
 import pymunk
 import pytest
@@ -19,12 +18,10 @@ def test_an_interrupt_that_an_engine_swallows_is_raised_again() -> None:
             signal.raise_signal(signal.SIGINT)
 
     space.on_collision(post_solve=interrupted_once)
-    began = time.monotonic()
     with pytest.raises(KeyboardInterrupt), dependable_interrupts():  # noqa: PT012 - it may come in any step
-        while time.monotonic() < began + 5:
+        for _ in range(10_000_000):  # many more than there are until it is raised again
             space.step(0.001)
     assert calls
-    assert time.monotonic() - began < 1
 
 
 def _touching() -> pymunk.Space:

@@ -9,7 +9,7 @@ from phframe.core import Episode
 from tests.cli.conftest import Install, Invoke, Run
 
 KEYS = [
-    *("format", "scene", "planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "seed", "noise"),
+    *("format", "scene", "planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "goal", "seed", "noise"),
     *("status", "reason", "actions", "planning_time", "motion_planning_time", "execution_time", "simulated_actions"),
     *("replans", "toppled", "spilled", "target_moved", "tracking_error", "prediction_error", "wall_contact", "clean"),
     *("recording", "versions"),
@@ -103,10 +103,11 @@ def test_options_reach_their_parts(invoke: Invoke) -> None:
     assert result.exit_code in (0, 1)
     episode = _episode(Path("here"))
     assert len(episode.scene.objects) == 4
-    assert {part: dict(values) for part, values in episode.setup.options.items() if values} == {
+    assert {part: dict(values) for part, values in episode.spec.options.items() if values} == {
         "planner": {"margin": 0.02},
         "arm": {"link_width": 0.1},
         "backend": {"step": 0.004},
+        "scenes": {"count": 3},
     }
 
 

@@ -6,7 +6,6 @@ import io
 import json
 import signal
 import sys
-import time
 from contextlib import closing
 from pathlib import Path
 
@@ -15,7 +14,7 @@ import pytest
 from phframe.cli.progress import Progress
 from phframe.core import State
 from phframe.runtime.scenes import find_scene
-from tests.cli.conftest import Install, Invoke, Run, Spawn
+from tests.cli.conftest import Install, Invoke, Run, Spawn, until
 
 needs_video = pytest.mark.needs_video
 
@@ -44,15 +43,18 @@ def test_an_episode_is_filmed_whatever_backend_it_runs_in(backend: str, invoke: 
 
 
 @needs_video
-@pytest.mark.parametrize("name", ["film.avi", "nowhere/film.mp4"])
+@pytest.mark.parametrize("name", ["film.avi", "file/film.mp4", "folder.mp4"])
 def test_a_file_that_cannot_be_written_is_refused_before_anything_runs(name: str, run: Run) -> None:
     for library in ("av", "mujoco"):
         pytest.importorskip(library)
+    Path("folder.mp4").mkdir()
+    Path("file").touch()
     result = run("solve", "vieira/simple-01", "--video", name)
     assert (result.returncode, result.stdout) == (2, "")
-    assert result.stderr.startswith(f"error: cannot write the video {name}: ")
+    assert result.stderr.startswith("error: cannot write ")
+    assert name in result.stderr
     assert len(result.stderr.splitlines()) == 1
-    assert list(Path().iterdir()) == []
+    assert sorted(path.name for path in Path().iterdir()) == ["file", "folder.mp4"]
 
 
 def test_without_the_libraries_the_install_line_is_said(run: Run, install: Install, tmp_path: Path) -> None:
@@ -74,13 +76,9 @@ def test_ctrl_c_while_filming_leaves_no_half_video(spawn: Spawn) -> None:
     for library in ("av", "mujoco"):
         pytest.importorskip(library)
     process = spawn("solve", "vieira/basic", "--no-rerun", "--video", "film.mp4")
-    end = time.monotonic() + 60.0
-    while not list(Path().glob(".film.mp4.*.part")):
-        assert process.poll() is None, process.communicate()
-        assert time.monotonic() < end
-        time.sleep(0.02)
+    until(lambda: list(Path().glob(".film.mp4.*.part")), process)
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=30)
+    process.communicate(timeout=120)
     assert process.returncode == 130
     assert [path.name for path in Path().iterdir()] == ["runs"]
 
@@ -95,6 +93,5 @@ def test_the_line_says_how_much_is_filmed_and_hands_every_frame_on(monkeypatch: 
         handed_on = []
         for frame in progress.through(frames):
             handed_on.append(frame)
-            time.sleep(0.15)
+            until(lambda: f"Filming action 1: {25 * len(handed_on) - 25} %" in screen.getvalue())
     assert handed_on == frames
-    assert "Filming action 1: 50 %" in screen.getvalue()

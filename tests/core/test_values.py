@@ -32,9 +32,9 @@ from phframe.core import (
     PhaseRule,
     Plan,
     Rejection,
+    RunSpec,
     Scene,
     SceneObject,
-    Setup,
     Shelf,
     State,
     Status,
@@ -120,9 +120,9 @@ def episode() -> Episode:
         Step(plan().actions[0], trajectory, state(), state(ARM, "t"), expected, motion(), decision(), 0)
         for trajectory, expected in zip(trajectories, (state(), None), strict=True)
     )
-    setup = Setup("phia", "pymunk", "planar", "ripser", 3, {"planner": {"margin": 0.02}}, versions={"phframe": "0.1"})
+    spec = RunSpec(seed=3, options={"planner": {"margin": 0.02}})
     return Episode(
-        scene(), setup, Status.FAILED, "it fell", (plan(),), steps, (Rejection(grasp(), "no", Unreachable(0.1, "no")),)
+        scene(), spec, Status.FAILED, "it fell", (plan(),), steps, (Rejection(grasp(), "no", Unreachable(0.1, "no")),)
     )
 
 
@@ -212,9 +212,10 @@ def test_cost_does_not_count_when_plans_are_compared() -> None:
 
 
 def test_versions_do_not_count_when_setups_are_compared() -> None:
-    setup = episode().setup
-    assert replace(setup, versions={}) == setup
-    assert replace(setup, seed=4) != setup
+    whole = episode()
+    assert replace(whole, versions={"phframe": "0.0"}) == whole
+    assert replace(whole.spec, workers=4) == whole.spec
+    assert replace(whole.spec, seed=4) != whole.spec
 
 
 def test_states_must_agree_with_themselves() -> None:

@@ -1,4 +1,4 @@
-"""An independent judge of collisions: MuJoCo, with the covers of the arm, the shelf and the objects.
+"""An independent judge of collisions: MuJoCo, with the collision geometry of the arm, the shelf and the objects.
 
 No margins: with them, MuJoCo 4 finds overlaps of boxes and cylinders where there are none, and misses others.
 """
@@ -85,7 +85,7 @@ def _robot(arm: ArticulatedArm[Any]) -> Any:
     for geom in spec.geoms:
         geom.contype, geom.conaffinity = 1, 3
     links = {body.name for body in spec.bodies}
-    for a, b in {*arm.description.overlapping, arm.fingers.links, *_on_the_base(arm)}:
+    for a, b in {*arm.description.allowed_collisions, arm.fingers.links, *_on_the_base(arm)}:
         if {a, b} <= links:
             spec.add_exclude(bodyname1=a, bodyname2=b)
     return spec
@@ -96,11 +96,11 @@ def _on_the_base(arm: ArticulatedArm[Any]) -> Iterator[tuple[str, str]]:
     robot, first = arm.robot, arm.robot.joint(arm.joints[0].name).child
 
     def fixed(link: str) -> bool:
-        hangs = robot.connections.get(link)
+        hangs = robot.parent_joints.get(link)
         moving = {joint.name for joint in (*arm.joints, *arm.fingers.joints)}
         return hangs is None or ((hangs.joint is None or hangs.joint.name not in moving) and fixed(hangs.parent))
 
-    yield from product([link for link in robot.covers if fixed(link)], [first])
+    yield from product([link for link in robot.links if fixed(link)], [first])
 
 
 def _walls(scene: Scene) -> Iterator[tuple[str, FloatArray, FloatArray]]:

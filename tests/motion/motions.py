@@ -11,11 +11,13 @@ import numpy as np
 
 from phframe.core import (
     ArmModel,
+    ArmState,
     BasePose,
     Contacts,
     Cylinder,
     FloatArray,
     GripperPath,
+    GripperTrajectory,
     JointTrajectory,
     MotionPlanner,
     Phase,
@@ -50,6 +52,14 @@ def cylinder(name: str, x: float, y: float) -> SceneObject:
 
 EMPTY = Scene("lone", SHELF, (cylinder("target", 0.50, 0.06),), "target")
 """A shelf whose target is out of the way of all but what is meant for it."""
+
+
+CROWD = Scene(
+    "crowd",
+    SHELF,
+    (cylinder("left", 0.25, MIDDLE + 0.19), cylinder("right", 0.3, MIDDLE - 0.17), cylinder("target", 0.4, MIDDLE)),
+    "target",
+)
 
 
 def baxter(side: str = "left") -> ArticulatedArm[Any]:
@@ -146,3 +156,42 @@ def off_the_path(points: FloatArray, path: GripperPath) -> tuple[FloatArray, Flo
     nearest = np.argmin(distances, axis=0)
     rows = np.arange(len(points))
     return np.array(distances)[nearest, rows], np.array(turns)[nearest, rows]
+
+
+def paths(arm: Any) -> dict[str, GripperPath]:
+    return {
+        "straight": insertion(arm, 0.45, MIDDLE + 0.08),
+        "sweep": sweep(arm, 0.3, MIDDLE - 0.1, MIDDLE + 0.12),
+        "angled": insertion(arm, 0.35, MIDDLE - 0.13, math.radians(-25.0)),
+        "grasp": grasp(arm, 0.4, MIDDLE),
+    }
+
+
+def arm_state(planner: MotionPlanner[Any], q: FloatArray, **more: Any) -> ArmState:
+    point = seen_at(planner, q)
+    return ArmState(point[[0, 1, 3]], planner.arm.shape.min_opening, joints=q, **more)
+
+
+def seen_at(planner: MotionPlanner[Any], q: FloatArray) -> FloatArray:
+    still = JointTrajectory(
+        GripperTrajectory(np.array([0.0, 1.0]), np.zeros((2, 3)), np.zeros(2), (Phase.SWEEP,), 1.0),
+        np.array([q, q]),
+        np.zeros((2, len(q))),
+    )
+    points, _ = seen(still, planner, np.zeros(1))
+    return np.asarray(points[0])
+
+
+def halfway(planner: MotionPlanner[Any], path: GripperPath, x: float) -> FloatArray:
+    """Joint values ``(dof,)`` of the motion along a path as the fingertip first is at a depth (m)."""
+    motion = lifted(planner, path)
+    assert isinstance(motion, JointTrajectory)
+    row = int(np.argmax(motion.gripper.poses[:, 0] >= x))
+    return np.array(motion.positions[row])
+
+
+def bits(motion: JointTrajectory | Unreachable) -> bytes:
+    assert isinstance(motion, JointTrajectory), motion
+    gripper = motion.gripper
+    arrays = (motion.positions, motion.velocities, gripper.times, gripper.poses, gripper.openings)
+    return b"".join(array.tobytes() for array in arrays)

@@ -35,6 +35,7 @@ from phframe.core import (
 )
 from tests.motion.motions import (
     BEFORE,
+    CROWD,
     DEEP,
     EMPTY,
     MIDDLE,
@@ -47,6 +48,7 @@ from tests.motion.motions import (
     insertion,
     lifted,
     off_the_path,
+    paths,
     planner,
     seen,
     sweep,
@@ -57,15 +59,6 @@ pytestmark = [pytest.mark.needs_baxter, pytest.mark.needs_ompl]
 ARMS = {"left": baxter, "right": lambda: baxter("right"), "example": example}
 JUDGED = 0.02
 """Between the configurations that are looked at for collisions (s)."""
-
-
-def paths(arm: Any) -> dict[str, GripperPath]:
-    return {
-        "straight": insertion(arm, 0.45, MIDDLE + 0.08),
-        "sweep": sweep(arm, 0.3, MIDDLE - 0.1, MIDDLE + 0.12),
-        "angled": insertion(arm, 0.35, MIDDLE - 0.13, math.radians(-25.0)),
-        "grasp": grasp(arm, 0.4, MIDDLE),
-    }
 
 
 def check(motion: JointTrajectory | Unreachable, planner: MotionPlanner[Any], path: GripperPath, state: State) -> None:
@@ -182,14 +175,6 @@ def judge_of(planner: MotionPlanner[Any], state: State) -> Any:
     return judge
 
 
-CROWD = Scene(
-    "crowd",
-    SHELF,
-    (cylinder("left", 0.25, MIDDLE + 0.19), cylinder("right", 0.3, MIDDLE - 0.17), cylinder("target", 0.4, MIDDLE)),
-    "target",
-)
-
-
 @pytest.mark.needs_mujoco
 @pytest.mark.parametrize("name", ARMS)
 def test_in_a_crowd_nothing_forbidden_is_touched(name: str) -> None:
@@ -211,33 +196,6 @@ def test_what_has_spilled_is_in_nobodys_way() -> None:
     assert "blocking" in found.why
     spilled = State(start.poses, (Condition.SPILLED, Condition.UPRIGHT))
     assert isinstance(lifted(planner(arm, scene), path, spilled), JointTrajectory)
-
-
-def bits(motion: JointTrajectory | Unreachable) -> bytes:
-    assert isinstance(motion, JointTrajectory), motion
-    gripper = motion.gripper
-    arrays = (motion.positions, motion.velocities, gripper.times, gripper.poses, gripper.openings)
-    return b"".join(array.tobytes() for array in arrays)
-
-
-@pytest.mark.parametrize("kind", ["sweep", "angled", "grasp"])
-def test_the_same_inputs_give_the_same_bits_whatever_was_planned_before(kind: str) -> None:
-    arm = baxter()
-    path = paths(arm)[kind]
-    fresh, used = planner(arm, CROWD), planner(arm, CROWD)
-    moved = CROWD.initial_state().poses.copy()
-    moved[:2, 0], moved[:2, 1] = 0.05, (MIDDLE - 0.11, MIDDLE + 0.11)  # where the forearm has to keep off them
-    for other in ("straight", "grasp"):
-        lifted(used, paths(arm)[other], State(moved, CROWD.initial_state().conditions), seed=3)
-    assert bits(lifted(fresh, path)) == bits(lifted(used, path)) == bits(lifted(used, path))
-
-
-def test_where_the_time_is_up_it_says_so() -> None:
-    arm = baxter()
-    state = EMPTY.initial_state()
-    found = planner(arm).plan(insertion(arm, 0.4, MIDDLE), state, attempts=1, seconds=0.0, rng=np.random.default_rng(0))
-    assert isinstance(found, Unreachable)
-    assert found.why == "no motion was found in the time allowed"
 
 
 @pytest.mark.parametrize(
@@ -275,7 +233,7 @@ def test_from_a_mount_too_far_away_nothing_is_in_reach(away: tuple[float, float,
     base_pose = BasePose(usual.x + away[0], usual.y + away[1], usual.z + away[2], usual.yaw)
     found = lifted(planner(arm, EMPTY, base_pose), insertion(arm, 0.4, MIDDLE))
     assert isinstance(found, Unreachable)
-    assert "reach" in found.why or "no posture" in found.why or "meets" in found.why
+    assert "reach" in found.why or "meets" in found.why
     assert "\n" not in found.why
 
 

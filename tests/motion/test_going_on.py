@@ -19,63 +19,34 @@ from phframe.core import (
     Contacts,
     FloatArray,
     GripperPath,
-    GripperTrajectory,
     JointTrajectory,
     MotionPlanner,
     Phase,
     PhaseRule,
-    Scene,
     Unreachable,
     compose,
     inverse,
     planar_pose,
 )
 from tests.motion.motions import (
+    CROWD,
     DEEP,
     EMPTY,
     MIDDLE,
-    SHELF,
+    arm_state,
     baxter,
-    cylinder,
     example,
+    halfway,
     insertion,
     lifted,
     planner,
     seen,
+    seen_at,
 )
 
 pytestmark = [pytest.mark.needs_baxter, pytest.mark.needs_ompl]
 
 ARMS = {"left": baxter, "right": lambda: baxter("right"), "example": example}
-CROWD = Scene(
-    "crowd",
-    SHELF,
-    (cylinder("left", 0.25, MIDDLE + 0.19), cylinder("right", 0.3, MIDDLE - 0.17), cylinder("target", 0.4, MIDDLE)),
-    "target",
-)
-
-
-def arm_state(planner: MotionPlanner[Any], q: FloatArray, **more: Any) -> ArmState:
-    point = seen_at(planner, q)
-    return ArmState(point[[0, 1, 3]], planner.arm.shape.min_opening, joints=q, **more)
-
-
-def seen_at(planner: MotionPlanner[Any], q: FloatArray) -> FloatArray:
-    still = JointTrajectory(
-        GripperTrajectory(np.array([0.0, 1.0]), np.zeros((2, 3)), np.zeros(2), (Phase.SWEEP,), 1.0),
-        np.array([q, q]),
-        np.zeros((2, len(q))),
-    )
-    points, _ = seen(still, planner, np.zeros(1))
-    return np.asarray(points[0])
-
-
-def halfway(planner: MotionPlanner[Any], path: GripperPath, x: float) -> FloatArray:
-    """Joint values ``(dof,)`` of the motion along a path as the fingertip first is at a depth (m)."""
-    motion = lifted(planner, path)
-    assert isinstance(motion, JointTrajectory)
-    row = int(np.argmax(motion.gripper.poses[:, 0] >= x))
-    return np.array(motion.positions[row])
 
 
 def retreat(arm: Any, begin: FloatArray) -> GripperPath:

@@ -29,7 +29,7 @@ from phframe.core import (
     yaw_of,
 )
 from phframe.motion.planar import PlanarMotionOptions, PlanarMotionPlanner
-from phframe.motion.trapezoidal_velocity import ramp
+from phframe.motion.trapezoidal_velocity import trapezoidal_profile
 
 ARM = PlanarArm(PlanarArmOptions())
 SCENE = Scene("s", Shelf(0.6, 0.6), (SceneObject("target", Cylinder(0.03), (0.5, 0.3)),), "target")
@@ -125,8 +125,10 @@ def test_a_path_that_goes_nowhere_is_a_short_rest() -> None:
 
 
 @given(st.floats(1e-3, 10.0), st.floats(1e-3, 1.0))
-def test_ramps_are_quickest_within_speed_and_acceleration(at_full_speed: float, to_full_speed: float) -> None:
-    found = ramp(at_full_speed, to_full_speed)
+def test_trapezoidal_profiles_are_quickest_within_speed_and_acceleration(
+    at_full_speed: float, to_full_speed: float
+) -> None:
+    found = trapezoidal_profile(at_full_speed, to_full_speed)
     times = found.times(0.02)
     fraction, rate = found.fraction(times), found.rate(times)
     assert (fraction[0], rate[0]) == (0.0, 0.0)

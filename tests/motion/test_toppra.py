@@ -1,4 +1,4 @@
-"""Times for paths: from rest to rest, within limits, and never creeping."""
+"""Time-optimal path parametrisation: from rest to rest, within limits, and never creeping."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 pytest.importorskip("toppra")
 
 from phframe.core import FloatArray
-from phframe.motion.toppra_ import Timed, timed
+from phframe.motion.toppra_ import TimedPath, time_optimal
 
 pytestmark = pytest.mark.needs_baxter
 
@@ -29,8 +29,8 @@ def nominal(path: FloatArray) -> float:
     return float(at_full_speed + 2.0 * np.sqrt(bends).sum())
 
 
-def check(path: FloatArray) -> Timed:
-    found = timed(path, SPEEDS, ACCELERATIONS)
+def check(path: FloatArray) -> TimedPath:
+    found = time_optimal(path, SPEEDS, ACCELERATIONS)
     assert found.times[0] == 0.0
     assert (np.diff(found.times) > 0.0).all()
     assert np.diff(found.times).max() <= 0.0201
@@ -93,7 +93,7 @@ def rest(points: int) -> FloatArray:
 @pytest.mark.parametrize("points", [1, 2, 3, 50])
 def test_a_path_that_goes_nowhere_is_a_short_rest(points: int) -> None:
     path = rest(points)
-    found = timed(path, SPEEDS, ACCELERATIONS)
+    found = time_optimal(path, SPEEDS, ACCELERATIONS)
     assert 0.0 < found.times[-1] <= 0.1
     assert (found.values == path[0]).all()
     assert not found.speeds.any()

@@ -160,11 +160,11 @@ def test_what_cannot_be_solved_is_a_result_that_says_why(planner: str, case: str
 
 
 @both
-def test_a_shelf_walled_off_is_a_result_in_reasonable_time(planner: str) -> None:
+def test_a_shelf_walled_off_is_a_result_after_few_simulations(planner: str) -> None:
     plan = planned(walled_in(), planner, max_actions=8)
     assert plan.status is Status.FAILED
     assert plan.reason
-    assert plan.cost.total < 10.0
+    assert plan.cost.simulated_actions < 100
 
 
 def test_a_narrow_shelf_can_be_solved_with_an_automatic_half_width() -> None:

@@ -25,9 +25,9 @@ from phframe.core import (
     Phase,
     PhaseRule,
     Plan,
+    RunSpec,
     Scene,
     SceneObject,
-    Setup,
     Shelf,
     State,
     Status,
@@ -49,7 +49,7 @@ PLACES = {
 SCENE = Scene(
     "hand/made", Shelf(0.55, 0.61), tuple(SceneObject(i, Cylinder(0.03), at) for i, at in PLACES.items()), target="mug"
 )
-SETUP = Setup("phia", "pymunk", "planar", "ripser", 7, {"planner": {"margin": 0.015}}, versions={"phframe": "0.1.0"})
+SPEC = RunSpec(seed=7, options={"planner": {"margin": 0.015}})
 CORRIDOR = Corridor(np.zeros(2), 0.0, 0.30, 0.12, -0.05, 0.42)
 RULES = {phase: PhaseRule(0.25, 0.0, Contacts.OBJECTS) for phase in Phase}
 
@@ -78,7 +78,7 @@ def hand_made() -> Recorded:
         _plan(start, steps[:1], Cost(0.03, 0.002, 0.02, 0.0, 4)),
         _plan(first, steps[1:], Cost(0.01)),
     )
-    episode = Episode(SCENE, SETUP, Status.RETRIEVED, "", plans, steps)
+    episode = Episode(SCENE, SPEC, Status.RETRIEVED, "", plans, steps)
     return Recorded(episode, mounted(), tuple(tuple(_frames(step)) for step in steps))
 
 

@@ -18,7 +18,7 @@ from phframe.pushing import PushDecision
 from phframe.recorders import palette
 from phframe.recorders.rerun_ import RerunRecorder
 from tests.recorders.reading import Recording
-from tests.recorders.synthetic_episode import SCENE, SETUP, Recorded, hand_made, mounted
+from tests.recorders.synthetic_episode import SCENE, SPEC, Recorded, hand_made, mounted
 
 pytestmark = pytest.mark.needs_rerun
 
@@ -30,7 +30,7 @@ def made() -> Recorded:
 
 def record(made: Recorded, path: Path) -> None:
     recorder, episode = RerunRecorder(path), made.episode
-    recorder.begin(episode.scene, episode.setup, made.arm)
+    recorder.begin(episode.scene, episode.spec, made.arm)
     recorder.planned(episode.plans[0])
     recorder.stepped(episode.steps[0], made.frames[0])
     recorder.planned(episode.plans[1])
@@ -98,7 +98,7 @@ def test_what_tilts_is_tilted(made: Recorded, tmp_path: Path) -> None:
     poses = step.after.poses.copy()
     poses[row, 2:] = [0.03, np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0]
     recorder = RerunRecorder(tmp_path / "tilted.rrd")
-    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.begin(SCENE, SPEC, made.arm)
     recorder.stepped(replace(step, after=replace(step.after, poses=poses)), made.frames[1])
     recorder.close()
     turned = Recording(recorder.path).rows("/world/objects/object_3", "quaternion")[-1][2][0]
@@ -230,7 +230,7 @@ def test_interrupted_action_keeps_the_frames_seen(made: Recorded, tmp_path: Path
         raise KeyboardInterrupt
 
     recorder = RerunRecorder(tmp_path / "interrupted.rrd")
-    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.begin(SCENE, SPEC, made.arm)
     recorder.planned(made.episode.plans[0])
     with pytest.raises(KeyboardInterrupt):
         recorder.stepped(made.episode.steps[0], interrupted())
@@ -241,7 +241,7 @@ def test_interrupted_action_keeps_the_frames_seen(made: Recorded, tmp_path: Path
 
 def test_file_grows_action_by_action(made: Recorded, tmp_path: Path) -> None:
     recorder = RerunRecorder(tmp_path / "growing.rrd")
-    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.begin(SCENE, SPEC, made.arm)
     sizes = []
     for step, frames in zip(made.episode.steps, made.frames, strict=True):
         recorder.stepped(step, frames)
@@ -255,7 +255,7 @@ def test_close_twice_and_before_the_beginning(made: Recorded, tmp_path: Path) ->
     recorder.close()
     recorder.stepped(made.episode.steps[0], made.frames[0])
     assert not recorder.path.exists(), "nothing is written before an episode begins"
-    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.begin(SCENE, SPEC, made.arm)
     recorder.close()
     recorder.close()
     assert "/world/objects/mug" in Recording(recorder.path).entities
@@ -264,7 +264,7 @@ def test_close_twice_and_before_the_beginning(made: Recorded, tmp_path: Path) ->
 def test_unwritable_path_is_a_clear_error(made: Recorded, tmp_path: Path) -> None:
     recorder = RerunRecorder(tmp_path / "missing" / "episode.rrd")
     with pytest.raises(InputError, match=r"cannot write the recording .*missing.*No such file or directory"):
-        recorder.begin(SCENE, SETUP, made.arm)
+        recorder.begin(SCENE, SPEC, made.arm)
     recorder.close()
 
 
@@ -281,7 +281,7 @@ def test_decision_without_anything_and_no_frames(made: Recorded, tmp_path: Path)
         step, decision=replace(decision, corridor=None, diagram=None, labels=None, rectangle=None, radius=None)
     )
     recorder = RerunRecorder(tmp_path / "bare.rrd")
-    recorder.begin(SCENE, SETUP, made.arm)
+    recorder.begin(SCENE, SPEC, made.arm)
     recorder.stepped(bare, ())
     recorder.close()
     rows = partial(Recording(recorder.path).rows)
@@ -298,7 +298,7 @@ def test_links_move_joint_by_joint_where_the_states_have_joints(made: Recorded, 
         return replace(state, arm=replace(state.arm, joints=np.array([x - arm.base_pose.x, y - arm.base_pose.y, yaw])))
 
     recorder, step = RerunRecorder(tmp_path / "joints.rrd"), made.episode.steps[0]
-    recorder.begin(SCENE, SETUP, arm)
+    recorder.begin(SCENE, SPEC, arm)
     recorder.stepped(replace(step, after=with_joints(step.after)), [(t, with_joints(s)) for t, s in made.frames[0]])
     recorder.close()
     recording = Recording(recorder.path)

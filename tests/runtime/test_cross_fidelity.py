@@ -10,7 +10,7 @@ import pytest
 
 import phframe
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.core import ArmModel, IncompatibleError, JointTrajectory, OptionError, Scene, Setup, Status, Step
+from phframe.core import ArmModel, IncompatibleError, JointTrajectory, OptionError, RunSpec, Scene, Status, Step
 from phframe.runtime.observer import Frames, MountedArm, Observer
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.summary import summarize
@@ -25,7 +25,7 @@ SCENE = "papallas/s02"
 def test_it_plans_in_pymunk_and_drives_joints_in_mujoco(tmp_path: Path) -> None:
     episode = phframe.solve(SCENE, backend="mujoco")
     assert episode.status is Status.RETRIEVED
-    assert (episode.setup.backend, episode.setup.plan_backend, episode.setup.plan_arm) == ("mujoco", "pymunk", None)
+    assert (episode.spec.backend, episode.spec.plan_backend, episode.spec.plan_arm) == ("mujoco", "pymunk", "planar")
     assert all(isinstance(step.trajectory, JointTrajectory) for step in episode.steps)
     summary = summarize(episode)
     assert (summary["plan_backend"], summary["plan_arm"]) == ("pymunk", "planar")
@@ -51,9 +51,9 @@ def test_it_can_plan_in_mujoco_too_with_options_of_its_own() -> None:
         plan_backend="mujoco",
         options={"plan_backend": {"step": 0.004}, "backend": {"sleep": False}},
     )
-    assert episode.setup.plan_backend is None
-    assert episode.setup.options["backend"] == {"sleep": False}
-    assert episode.setup.options["plan_backend"] == {"sleep": False, "step": 0.004}
+    assert episode.spec.plan_backend == "mujoco"
+    assert episode.spec.options["backend"] == {"sleep": False}
+    assert episode.spec.options["plan_backend"] == {"sleep": False, "step": 0.004}
     assert episode.status is Status.RETRIEVED
 
 
@@ -62,7 +62,7 @@ def test_in_pymunk_planning_and_execution_are_one_world() -> None:
     summary = summarize(episode)
     assert (summary["plan_backend"], summary["plan_arm"]) == ("pymunk", "planar")
     assert summary["motion_planning_time"] == 0.0
-    assert episode.setup.plan_backend is None
+    assert episode.spec.plan_backend == "pymunk"
 
 
 def test_prediction_errors_are_those_of_what_moved() -> None:
@@ -98,7 +98,7 @@ def test_observers_are_told_of_the_joints_and_frames_end_where_the_action_did() 
     class Looking(Observer):
         arms: ClassVar[list[MountedArm]] = []
 
-        def begin(self, scene: Scene, setup: Setup, arm: MountedArm) -> None:
+        def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
             self.arms.append(arm)
 
         def stepped(self, step: Step, frames: Frames) -> None:

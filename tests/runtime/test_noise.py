@@ -103,7 +103,7 @@ def test_the_same_seed_gives_the_same_bits_and_another_seed_others(tmp_path: Pat
     one, two, other = (phframe.solve(BASIC, noise=BOTH, seed=seed) for seed in (1, 1, 2))
     assert one == two
     assert one.plans[0].expected[0] != other.plans[0].expected[0]
-    assert dict(one.setup.noise) == {"position": 0.005, "friction": 0.3}
+    assert dict(one.spec.noise) == {"position": 0.005, "friction": 0.3}
     assert summarize(one)["noise"] == {"position": 0.005, "friction": 0.3}
     assert phframe.load(phframe.save(one, tmp_path / "episode.json")) == one
 
@@ -117,7 +117,7 @@ def test_no_noise_is_as_if_nobody_had_asked() -> None:
 def test_friction_noise_leaves_the_world_and_its_options_alone() -> None:
     plain, noisy = (phframe.solve(BASIC, noise=noise, options={"backend": {"step": 0.004}}) for noise in (None, BOTH))
     assert noisy.scene == plain.scene
-    assert noisy.setup.options == plain.setup.options
+    assert noisy.spec.options == plain.spec.options
     assert noisy.steps[0].before == plain.steps[0].before
 
 

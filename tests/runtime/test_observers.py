@@ -54,7 +54,7 @@ def test_everything_is_told_in_order_and_is_what_the_episode_holds() -> None:
     episode = solve(BASIC, observers=[diary])
     assert diary.words == ["begin", "planned", *["stepped"] * len(episode.steps), "finished", "close"]
     what = dict(diary.told)
-    assert what["begin"][:2] == (episode.scene, episode.setup)
+    assert what["begin"][:2] == (episode.scene, episode.spec)
     assert what["planned"][0] is episode.plans[0]
     assert [told[0] for word, told in diary.told if word == "stepped"] == list(episode.steps)
     assert what["finished"][0] is episode

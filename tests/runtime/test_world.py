@@ -148,11 +148,11 @@ def test_a_backend_that_drives_joints_needs_a_motion_planner(monkeypatch: pytest
 
 SERVING = """
 from phframe.arms.planar import PlanarArm
-from phframe.arms.reach import fraction_served
+from phframe.motion.reachability import reachability
 
 class Serving(PlanarArm):
     def fraction_served(self, shelf, base_pose):
-        return fraction_served(shelf, self, base_pose, self.inverse)
+        return reachability(shelf, self, base_pose).fraction
 """
 
 

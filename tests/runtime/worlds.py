@@ -15,8 +15,8 @@ from phframe.core import (
     Motion,
     Plan,
     Planner,
+    RunSpec,
     Scene,
-    Setup,
     State,
     Task,
     Trajectory,
@@ -127,11 +127,11 @@ def run(
     seed: int = 0,
 ) -> Episode:
     """An episode, in the execution world's own scene; it is closed afterwards."""
-    setup = Setup("phia", "pymunk", "planar", "ripser", seed, loop=loop)
+    spec = RunSpec(seed=seed, loop=loop)
     with execution, PlanningWorld(planning or WorldSpec(execution.scene)) as plans_in:
         topology = create(Kind.TOPOLOGY, "ripser")
         goal = create(Kind.GOAL, "retrieve")
-        return run_episode(planner or Noting(), topology, plans_in, execution, goal, setup, loop, observers)
+        return run_episode(planner or Noting(), topology, plans_in, execution, goal, spec, observers)
 
 
 def arm_file(folder: Path) -> str:

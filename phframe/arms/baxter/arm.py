@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from phframe.arms.articulated import ArticulatedArm
 from phframe.arms.baxter import figures
-from phframe.arms.baxter.model import SIDES, Side, arm_joints, baxter_urdf, fingers, mirrored
+from phframe.arms.baxter.model import SIDES, Side, arm_joints, baxter_robot, fingers, mirrored
 from phframe.core import LinkMesh
 from phframe.motion.options import ArticulatedOptions
 from phframe.urdf.description import ArmDescription, Section, Stand
+from phframe.urdf.model import Robot
 
 
 class BaxterOptions(ArticulatedOptions):
@@ -25,10 +26,10 @@ class Baxter(ArticulatedArm[BaxterOptions]):
 
     options_type = BaxterOptions
 
-    def describe(self) -> tuple[ArmDescription, str]:
+    def describe(self) -> tuple[ArmDescription, Robot]:
         """From the table of figures."""
         side = self.options.side
-        return _description(side), baxter_urdf(side)
+        return _description(side), baxter_robot(side)
 
     def meshes(self) -> tuple[LinkMesh, ...]:
         """Rethink's, where the extra ``meshes`` is installed."""
@@ -48,8 +49,10 @@ def _description(side: Side) -> ArmDescription:
         home=figures.HOME if left else mirrored(figures.HOME),
         shelf=Stand(at=(x, y if left else -y, z)),
         height=figures.GRIPPER_HEIGHT,
-        postures=tuple(q if left else mirrored(q) for q in figures.POSTURES),
+        seed_configurations=tuple(q if left else mirrored(q) for q in figures.SEED_CONFIGURATIONS),
         force_limit=figures.FORCE_LIMIT,
         behind=(Section(part="forearm", widths=figures.WIDTHS, bottom=-half, top=half),),
-        overlapping=tuple((a.format(side=arm), b.format(side=arm)) for arm in SIDES for a, b in figures.OVERLAPPING),
+        allowed_collisions=tuple(
+            (a.format(side=arm), b.format(side=arm)) for arm in SIDES for a, b in figures.ALLOWED_COLLISIONS
+        ),
     )

@@ -1,8 +1,8 @@
 """Every figure of Baxter in one table. Metres, kilograms, radians, newtons, newton metres.
 
 Kinematics, limits, masses and inertias are those of Rethink Robotics' model (baxter_common 1.2.0, the file with the
-electric grippers); the covers are primitives fitted to the surfaces of its meshes, not that model's own collision
-cylinders, which are thinner than the covers. Frames are those of that model, except for the gripper's: see ``TIP_TURN``.
+electric grippers); the collision geometry is primitives fitted to the surfaces of its meshes, not that model's own collision
+cylinders, which are thinner than what they stand for. Frames are those of that model, except for the gripper's: see ``TIP_TURN``.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ class Segment:
         joint: Its name, without the side.
         link: Its link's name, without the side.
         at: Of the joint in the link before (m).
-        rpy: Turn of the joint in the link before (rad).
+        rpy: Rotation of the joint in the link before (rad).
         lower: Limit (rad).
         upper: Limit (rad).
         velocity: Limit (rad/s).
         effort: Limit (Nm).
         inertia: Of the link.
-        covers: Of the link.
+        collision_geometry: Of the link.
     """
 
     joint: str
@@ -41,7 +41,7 @@ class Segment:
     velocity: float
     effort: float
     inertia: Inertia
-    covers: tuple[Solid, ...]
+    collision_geometry: tuple[Solid, ...]
 
 
 def _along_x(part: str, radius: float, start: float, end: float) -> Solid:
@@ -81,7 +81,7 @@ SEGMENTS = (
             (0.01783, 0.00086, 0.19127),
             (0.04709102262, 0.00012787556, 0.00614870039, 0.03766976455, 0.00078086899, 0.03595988478),
         ),
-        covers=(
+        collision_geometry=(
             _along_z("column", 0.088, 0.03, 0.33),
             Solid("cylinder", (0.066, 0.14), (0.069, 0.0, 0.27), (RIGHT_ANGLE, 0.0, 0.0), "nose"),
             _rail("left spring", 0.1265),
@@ -102,7 +102,7 @@ SEGMENTS = (
             (0.06845, 0.00269, -0.00529),
             (0.01175209419, -0.00030096398, 0.00207675762, 0.0278859752, -0.00018821993, 0.02078749298),
         ),
-        covers=(_along_z("barrel", 0.073, -0.0975, 0.0975), _along_x("tail", 0.0762, 0.0, 0.121)),
+        collision_geometry=(_along_z("barrel", 0.073, -0.0975, 0.0975), _along_x("tail", 0.0762, 0.0, 0.121)),
     ),
     Segment(
         "e0",
@@ -118,7 +118,7 @@ SEGMENTS = (
             (-0.00276, 0.00132, 0.18086),
             (0.02661733557, 0.00029270634, 0.00392189887, 0.02844355207, 0.0010838933, 0.01248008322),
         ),
-        covers=(
+        collision_geometry=(
             _along_z("tube", 0.079, 0.012, 0.20),
             _box("fork", (0.125, 0.154, 0.126), (-0.0295, 0.0, 0.263)),
             _box("fork's nose", (0.1, 0.082, 0.126), (0.083, 0.0, 0.263)),
@@ -138,7 +138,7 @@ SEGMENTS = (
             (0.02611, 0.00159, -0.01117),
             (0.00711582686, 0.00036036173, 0.0007459496, 0.01318227876, -0.00019663418, 0.00926852064),
         ),
-        covers=(_along_z("barrel", 0.069, -0.0945, 0.0945), _along_x("tail", 0.070, 0.0, 0.092)),
+        collision_geometry=(_along_z("barrel", 0.069, -0.0945, 0.0945), _along_x("tail", 0.070, 0.0, 0.092)),
     ),
     Segment(
         "w0",
@@ -154,7 +154,9 @@ SEGMENTS = (
             (-0.00168, 0.0046, 0.13952),
             (0.01667742825, 0.00018403705, 0.00018657629, 0.01675457264, -0.00064732352, 0.0037463115),
         ),
-        covers=(_along_z("tube", 0.0742, -0.018, 0.215),),  # the fork beyond it lies inside the next link's barrel
+        collision_geometry=(
+            _along_z("tube", 0.0742, -0.018, 0.215),
+        ),  # the fork beyond it lies inside the next link's barrel
     ),
     Segment(
         "w1",
@@ -170,7 +172,7 @@ SEGMENTS = (
             (0.06041, 0.00697, 0.006),
             (0.00387607152, -0.00044384784, -0.00021115038, 0.00700537914, 0.00015348067, 0.0055275524),
         ),
-        covers=(_along_z("barrel", 0.059, -0.0856, 0.0824), _along_x("tube", 0.066, 0.055, 0.168)),
+        collision_geometry=(_along_z("barrel", 0.059, -0.0856, 0.0824), _along_x("tube", 0.066, 0.055, 0.168)),
     ),
     Segment(
         "w2",
@@ -186,7 +188,7 @@ SEGMENTS = (
             (0.00198, 0.00125, 0.01855),
             (0.00025289155, 0.00000575311, -0.00000159345, 0.0002688601, -0.00000519818, 0.0003074118),
         ),
-        covers=(
+        collision_geometry=(
             _along_z("flange", 0.0565, 0.054, 0.062),
             _along_z("neck", 0.039, 0.062, 0.1135),
             _box("camera", (0.030, 0.040, 0.0515), (0.040, 0.0, 0.08775)),
@@ -220,7 +222,7 @@ FINGER_SLOT = 0.008
 FINGER_TRAVEL = 0.020833
 FINGER_VELOCITY = 5.0  # nominal
 FINGER_EFFORT = 20.0
-FINGER_COVERS = (
+FINGER_GEOMETRY = (
     _box("bar", (0.10755, 0.0135, 0.010), (0.058925, 0.01725, 0.0)),
     _box("pad", (0.0335, 0.0065, 0.042), (0.09595, 0.01275, 0.0)),
     _box("knuckle", (0.017, 0.048, 0.009), (0.0083, -0.002, 0.005)),
@@ -233,7 +235,7 @@ MIN_OPENING = 0.035
 FLOOR = -0.9242
 """z of the floor."""
 TORSO = Inertia(35.336455, (0.0, 0.0, 0.0), (1.849155, -0.000354, -0.154188, 1.662671, 0.003292, 0.802239))
-TORSO_COVERS = (
+TORSO_GEOMETRY = (
     _box("mounts", (0.156, 0.672, 0.16), (0.065, 0.0, 0.08)),
     _box("back", (0.205, 0.452, 0.64), (-0.1055, 0.0, 0.26)),
     _box("belt", (0.205, 0.32, 0.06), (0.0985, 0.0, 0.19)),
@@ -243,25 +245,25 @@ TORSO_COVERS = (
 PEDESTAL = Inertia(
     60.86397744, (0.0, 0.0, 0.0), (5.0635929, 0.00103417, 0.80199628, 6.08689388, 0.00105311, 4.96191932)
 )
-PEDESTAL_COVERS = (
+PEDESTAL_GEOMETRY = (
     _box("feet", (0.914, 0.822, 0.3142), (-0.042, 0.0, -0.7671)),
     _along_z("post", 0.104, -0.61, -0.21),
     _along_z("cap", 0.19, -0.21, -0.06),
 )
 HEAD_AT: Vector = (0.06, 0.0, 0.686)
 HEAD = Inertia(0.547767, (0.0, 0.0, 0.0), (0.004641, 0.000159, 0.000242, 0.003295, -0.001324, 0.003415))
-HEAD_COVERS = (Solid("sphere", (0.22,), (-0.02, -0.04, 0.064)), Solid("sphere", (0.22,), (-0.02, 0.04, 0.064)))
+HEAD_GEOMETRY = (Solid("sphere", (0.22,), (-0.02, -0.04, 0.064)), Solid("sphere", (0.22,), (-0.02, 0.04, 0.064)))
 SCREEN_AT: Vector = (0.1227, 0.0, 0.0)
 SCREEN_RPY: Vector = (1.75057, 0.0, RIGHT_ANGLE)
 SCREEN = Inertia(0.440171, (0.0, 0.0, 0.0), (0.004006, 0.00023, 0.000002, 0.0028, 0.000029, 0.001509))
 
-OVERLAPPING = (
+ALLOWED_COLLISIONS = (
     ("base", "{side}_upper_shoulder"),
     ("base", "{side}_lower_shoulder"),
     ("{side}_upper_shoulder", "{side}_upper_elbow"),
     ("{side}_upper_elbow", "{side}_upper_forearm"),
 )
-"""Links that the joints' limits keep apart on the real robot, though their covers here, which are simpler, overlap."""
+"""Links that the joints' limits keep apart on the real robot, though their geometry here, which is simpler, overlaps."""
 
 IDLE = (1.0, -0.55, 0.0, 0.75, 0.0, 1.26, 0.0)
 """Joints of the left arm parked outwards while the other one works."""
@@ -276,7 +278,7 @@ MOUTH_AT: Vector = (0.675, 0.35, 0.15)
 followed; 2.5 cm nearer the start is lost, 2.5 cm farther the deep corners are."""
 GRIPPER_HEIGHT = 0.10
 """Of the gripper plane above the board: the forearm's barrel is 0.086 m from its axis."""
-POSTURES = (
+SEED_CONFIGURATIONS = (
     (1.21, 0.58, -1.4, 2.07, -0.44, -0.16, 2.6),
     (1.03, 0.69, -1.18, 2.41, -2.78, 0.69, -1.11),
 )

@@ -26,7 +26,7 @@ PAD_AT: Vector = (0.0, 0.01725, 0.1127)
 PLAIN = (0.3, 0.3, 0.32)
 """Colour of the torso, whose file has none."""
 DARKEST = 0.07
-"""Of a colour channel: some of the files' covers are so black that nothing of their shape would be seen."""
+"""Of a colour channel: some of the files' parts are so black that nothing of their shape would be seen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class Placed:
         file: In the package's folder.
         link: Of our URDF.
         at: Origin of the file, in the axes given (m).
-        rpy: Turn of the file there (rad).
+        rpy: Rotation of the file there (rad).
         from_tip: The axes are Rethink's gripper's (z ahead) at our fingertip or finger; else the link's own.
     """
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from phframe.arms.baxter import figures
 from phframe.core import Fingers, Joint
-from phframe.urdf.model import Connection, Link, robot_urdf
+from phframe.urdf.model import Link, Mimic, Robot, RobotJoint
 from phframe.urdf.solids import ORIGIN, Inertia, Solid, Vector, of_solids, rotation, together
 
 Side = Literal["left", "right"]
@@ -22,11 +22,10 @@ MIRRORED = ("s0", "e0", "w0", "w2")
 """Joints whose values change sign between mirrored poses of the two arms."""
 
 
-def baxter_urdf(side: Side) -> str:
+def baxter_robot(side: Side) -> Robot:
     """Baxter with one arm that moves and the other parked outwards."""
     parts = list(_parts(side))
-    links = [link for link, _ in parts]
-    return robot_urdf(f"baxter_{side}", links, [connection for _, connection in parts if connection])
+    return Robot.of(f"baxter_{side}", [link for link, _ in parts], [joint for _, joint in parts if joint])
 
 
 def arm_joints(side: Side) -> tuple[Joint, ...]:
@@ -50,15 +49,18 @@ def mirrored(q: Sequence[float]) -> tuple[float, ...]:
     )
 
 
-Part = tuple[Link, Connection | None]
+Part = tuple[Link, RobotJoint | None]
 
 
 def _parts(side: Side) -> Iterator[Part]:
     """Every link with what it hangs on, parents first."""
-    yield Link("base", figures.TORSO, figures.TORSO_COVERS), None
-    yield Link("pedestal", figures.PEDESTAL, figures.PEDESTAL_COVERS), Connection("base", "pedestal", ORIGIN)
-    yield Link("head", figures.HEAD, figures.HEAD_COVERS), Connection("base", "head", figures.HEAD_AT)
-    yield Link("screen", figures.SCREEN), Connection("head", "screen", figures.SCREEN_AT, figures.SCREEN_RPY)
+    yield Link.of_solids("base", figures.TORSO, figures.TORSO_GEOMETRY), None
+    yield (
+        Link.of_solids("pedestal", figures.PEDESTAL, figures.PEDESTAL_GEOMETRY),
+        RobotJoint("base", "pedestal", ORIGIN),
+    )
+    yield Link.of_solids("head", figures.HEAD, figures.HEAD_GEOMETRY), RobotJoint("base", "head", figures.HEAD_AT)
+    yield Link.of_solids("screen", figures.SCREEN), RobotJoint("head", "screen", figures.SCREEN_AT, figures.SCREEN_RPY)
     yield from _arm(side, None)
     if side == "left":
         yield from _arm("right", mirrored(figures.IDLE))
@@ -72,17 +74,17 @@ def _arm(side: Side, parked: tuple[float, ...] | None) -> Iterator[Part]:
     for number, (segment, joint) in enumerate(zip(figures.SEGMENTS, arm_joints(side), strict=True)):
         child = f"{side}_{segment.link}"
         at, rpy = (segment.at, segment.rpy) if number else _shoulder(side)
-        connection = Connection(parent, child, at, rpy, joint)
+        hung = RobotJoint(parent, child, at, rpy, joint)
         yield (
-            Link(child, segment.inertia, segment.covers),
-            connection if parked is None else _fixed(connection, parked[number]),
+            Link.of_solids(child, segment.inertia, segment.collision_geometry),
+            hung if parked is None else _parked(hung, parked[number]),
         )
         parent = child
     yield from _gripper(side, parent, moving=parked is None)
 
 
 def _shoulder(side: Side) -> tuple[Vector, Vector]:
-    """The first joint's place and turn on the torso."""
+    """The first joint's origin and rotation on the torso."""
     sign = 1.0 if side == "left" else -1.0
     (x, y, z), (ahead, _, up), yaw = figures.SHOULDER_AT, figures.SEGMENTS[0].at, sign * figures.SHOULDER_YAW
     return (x + ahead * cos(yaw), sign * y + ahead * sin(yaw), z + up), (0.0, 0.0, yaw)
@@ -93,14 +95,17 @@ def _gripper(side: Side, parent: str, *, moving: bool) -> Iterator[Part]:
     at = tuple(a + b for a, b in zip(figures.HAND_AT, figures.TIP_AT, strict=True))
     body = _seen_from_tip(figures.GRIPPER_BODY)
     inertia = together([_hand_from_tip(), of_solids(figures.GRIPPER_MASS, [body])])
-    yield Link(tip, inertia, (body,)), Connection(parent, tip, (at[0], at[1], at[2]), figures.TIP_TURN)
+    yield Link.of_solids(tip, inertia, (body,)), RobotJoint(parent, tip, (at[0], at[1], at[2]), figures.TIP_TURN)
     mechanism = fingers(side)
     for link, joint, sign in zip(links, mechanism.joints, (1.0, -1.0), strict=True):
-        covers = tuple(_on_side(solid, sign) for solid in figures.FINGER_COVERS)
+        solids = tuple(_on_side(solid, sign) for solid in figures.FINGER_GEOMETRY)
         base = (-figures.FINGER_LENGTH, sign * figures.FINGER_SLOT, 0.0)
-        follows = mechanism.joints[0].name if sign < 0.0 else ""
-        slide = Connection(tip, link, base, ORIGIN, joint, "prismatic", (0.0, sign, 0.0), follows)
-        yield Link(link, of_solids(figures.FINGER_MASS, covers), covers), slide if moving else _fixed(slide, 0.0)
+        mimic = Mimic(mechanism.joints[0].name) if sign < 0.0 else None
+        slide = RobotJoint(tip, link, base, ORIGIN, joint, "prismatic", (0.0, sign, 0.0), mimic)
+        yield (
+            Link.of_solids(link, of_solids(figures.FINGER_MASS, solids), solids),
+            slide if moving else _parked(slide, 0.0),
+        )
 
 
 def _finger_links(side: Side) -> tuple[str, str]:
@@ -122,20 +127,10 @@ def _seen_from_tip(box: Solid) -> Solid:
 
 
 def _on_side(solid: Solid, sign: float) -> Solid:
-    """A cover of the left finger on either finger: turned half way about the gripper's axis."""
+    """A part of the left finger on either finger: turned half way about the gripper's axis."""
     x, y, z = solid.at
     return replace(solid, at=(x, sign * y, sign * z))
 
 
-def _fixed(connection: Connection, value: float) -> Connection:
-    """The connection with its joint held at a value; of those that turn, about their z."""
-    turned = _rpy(rotation(connection.rpy) @ rotation((0.0, 0.0, value)))
-    return Connection(connection.parent, connection.child, connection.at, turned)
-
-
-def _rpy(matrix: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Vector:
-    """The turn about the fixed axes x, y, z (rad) that a matrix ``(3, 3)`` stands for."""
-    pitch = float(np.arcsin(np.clip(-matrix[2, 0], -1.0, 1.0)))
-    if abs(matrix[2, 0]) > 1.0 - 1e-12:
-        return float(np.arctan2(-matrix[1, 2], matrix[1, 1])), pitch, 0.0
-    return float(np.arctan2(matrix[2, 1], matrix[2, 2])), pitch, float(np.arctan2(matrix[1, 0], matrix[0, 0]))
+def _parked(joint: RobotJoint, value: float) -> RobotJoint:
+    return replace(joint.fixed_at(value), fixed_name="")

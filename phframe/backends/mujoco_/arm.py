@@ -9,10 +9,15 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from phframe.backends.mujoco_.options import MujocoOptions
 from phframe.backends.mujoco_.shelf import ARM_KIND, ARM_MEETS
-from phframe.core import ArmModel, FloatArray, IncompatibleError, Joint
+from phframe.core import ArmModel, FloatArray, IncompatibleError, InputError, Joint
+from phframe.urdf.convex_hull import ConvexHull
+from phframe.urdf.reader import read_robot
+from phframe.urdf.solids import rotation
+from phframe.urdf.writer import robot_urdf
 
 PREFIX = "arm/"
 """Of the names of all that belongs to the arm."""
@@ -61,14 +66,32 @@ def arm_spec(arm: ArmModel[Any], options: MujocoOptions) -> Any:
 
 
 def _load(arm: ArmModel[Any]) -> Any:
+    """The robot without visuals; convex hulls are put into the model itself, which then needs no files."""
     try:
-        robot = ET.fromstring(arm.urdf())
+        robot = read_robot(arm.urdf())
+        root = ET.fromstring(robot_urdf(robot.without_hulls()))
         # MuJoCo would merge links that are fixed to one another, and lose the fingertip.
-        ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", fusestatic="false", discardvisual="true")
-        return mujoco.MjSpec.from_string(ET.tostring(robot, encoding="unicode"))
-    except (ET.ParseError, ValueError) as error:
+        ET.SubElement(ET.SubElement(root, "mujoco"), "compiler", fusestatic="false")
+        spec = mujoco.MjSpec.from_string(ET.tostring(root, encoding="unicode"))
+    except (InputError, ValueError) as error:
         why = " ".join(str(error).split())
         raise IncompatibleError(f"MuJoCo cannot load the URDF of {type(arm).__name__}: {why}") from None
+    for number, (link, hull) in enumerate(robot.hulls):
+        _add_hull(spec, number, link, hull)
+    return spec
+
+
+def _add_hull(spec: Any, number: int, link: str, hull: ConvexHull) -> None:
+    name = f"hull {number}"
+    spec.add_mesh(name=name, uservert=hull.vertices.ravel(), userface=hull.triangles.ravel())
+    x, y, z, w = Rotation.from_matrix(rotation(hull.rpy)).as_quat()
+    spec.body(link).add_geom(
+        name=f"{hull.name or f'{link} {hull.part or number}'} collision",
+        type=mujoco.mjtGeom.mjGEOM_MESH,
+        meshname=name,
+        pos=hull.at,
+        quat=(w, x, y, z),
+    )
 
 
 def _check_names(arm: ArmModel[Any], spec: Any) -> None:

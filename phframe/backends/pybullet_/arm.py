@@ -16,8 +16,9 @@ import numpy as np
 from phframe.backends.pybullet_.bodies import ARM, ARM_MEETS
 from phframe.backends.pybullet_.options import PybulletOptions
 from phframe.backends.pybullet_.output_capture import bullet, caught_output
-from phframe.backends.pybullet_.urdf import Coupling, PreparedUrdf
+from phframe.backends.pybullet_.urdf import PreparedUrdf
 from phframe.core import ArmModel, BasePose, FloatArray, IncompatibleError
+from phframe.urdf.model import Mimic
 
 COUPLING_FORCE = 1000.0
 """Greatest force or torque between coupled joints (N or Nm): more than anything here can push with."""
@@ -29,7 +30,7 @@ FRACTIONS = (0.1, 0.4, 0.8)
 
 @dataclass(frozen=True, slots=True)
 class FollowingJoint:
-    """A joint that follows another, by PyBullet's numbers; see ``Coupling``."""
+    """A joint that follows another, by PyBullet's numbers; see ``Mimic``."""
 
     joint: int
     leader: int
@@ -72,22 +73,24 @@ def load_arm(
     Raises:
         IncompatibleError: If PyBullet cannot load the URDF.
     """
-    body = _load(client, arm, base_pose, urdf.text)
+    body = _load(client, arm, base_pose, urdf)
     loaded = _indexed(client, body, arm, urdf)
     for link in loaded.parts:
         _soften(client, body, link, options)
     bullet.changeDynamics(body, -1, linearDamping=0.0, angularDamping=0.0, physicsClientId=client)
     numbers = {info[1].decode(): info[0] for info in loaded.infos}
-    for coupling in urdf.couplings:
-        _couple(client, body, numbers, coupling)
+    for follower, mimic in urdf.couplings.items():
+        _couple(client, body, numbers, follower, mimic)
     return loaded
 
 
-def _load(client: int, arm: ArmModel[Any], base_pose: BasePose, text: str) -> int:
+def _load(client: int, arm: ArmModel[Any], base_pose: BasePose, urdf: PreparedUrdf) -> int:
     x, y, z, qw, qx, qy, qz = base_pose.pose.tolist()
     with tempfile.TemporaryDirectory() as folder, caught_output() as said:
         path = Path(folder) / "arm.urdf"  # PyBullet reads files only
-        path.write_text(text, encoding="utf-8")
+        path.write_text(urdf.text, encoding="utf-8")
+        for name, content in urdf.files.items():
+            (path.parent / name).write_bytes(content)
         try:
             body: int = bullet.loadURDF(
                 str(path),
@@ -127,8 +130,13 @@ def _indexed(client: int, body: int, arm: ArmModel[Any], urdf: PreparedUrdf) -> 
     )
 
 
-def _followers(couplings: Sequence[Coupling], joints: Mapping[str, int], driven: Sequence[int]) -> list[FollowingJoint]:
-    found = (FollowingJoint(joints[one.joint], joints[one.leader], one.ratio, one.offset) for one in couplings)
+def _followers(
+    couplings: Mapping[str, Mimic], joints: Mapping[str, int], driven: Sequence[int]
+) -> list[FollowingJoint]:
+    found = (
+        FollowingJoint(joints[name], joints[mimic.joint], mimic.multiplier, mimic.offset)
+        for name, mimic in couplings.items()
+    )
     return [follower for follower in found if follower.joint not in driven]
 
 
@@ -145,18 +153,18 @@ def _soften(client: int, body: int, link: int, options: PybulletOptions) -> None
     )
 
 
-def _couple(client: int, body: int, joints: Mapping[str, int], coupling: Coupling) -> None:
+def _couple(client: int, body: int, joints: Mapping[str, int], name: str, mimic: Mimic) -> None:
     """Hold two joints together; PyBullet itself ignores ``mimic``."""
     origin = [0.0, 0.0, 0.0]
-    leader, follower = joints[coupling.leader], joints[coupling.joint]
+    leader, follower = joints[mimic.joint], joints[name]
     gear = bullet.createConstraint(
         body, leader, body, follower, bullet.JOINT_GEAR, [0.0, 1.0, 0.0], origin, origin, physicsClientId=client
     )
     # It keeps the leader plus gearRatio times the follower at relativePositionTarget.
     bullet.changeConstraint(
         gear,
-        gearRatio=-1.0 / coupling.ratio,
-        relativePositionTarget=-coupling.offset / coupling.ratio,
+        gearRatio=-1.0 / mimic.multiplier,
+        relativePositionTarget=-mimic.offset / mimic.multiplier,
         erp=COUPLING_GAIN,
         maxForce=COUPLING_FORCE,
         physicsClientId=client,

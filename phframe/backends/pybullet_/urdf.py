@@ -2,32 +2,18 @@
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
-from collections.abc import Container, Iterator
-from dataclasses import dataclass
+from collections.abc import Container, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
-from phframe.core import ArmModel, IncompatibleError
+from phframe.core import ArmModel, IncompatibleError, InputError
+from phframe.urdf.convex_hull import ConvexHull
+from phframe.urdf.model import CollisionGeometry, Link, Mimic, Robot, RobotJoint
+from phframe.urdf.reader import read_robot
+from phframe.urdf.solids import ORIGIN, Inertia
+from phframe.urdf.writer import robot_urdf
 
-COLLISION = " collision"
-"""What the names of collision shapes end with, after the part they belong to."""
-
-
-@dataclass(frozen=True, slots=True)
-class Coupling:
-    """A joint that follows another.
-
-    Attributes:
-        joint: That follows.
-        leader: That it follows.
-        ratio: Its value over the leader's.
-        offset: Its value where the leader's is 0.
-    """
-
-    joint: str
-    leader: str
-    ratio: float
-    offset: float
+WEIGHTLESS = Inertia(0.0, ORIGIN, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,75 +23,69 @@ class PreparedUrdf:
     Attributes:
         text: The URDF: nothing to look at, one link for every part that has an outline.
         parts: What each link is called in a contact.
-        couplings: Joints that follow others.
+        couplings: What joints follow, by their names.
+        files: Contents of the files of convex hulls, by the names that they have in the text.
     """
 
     text: str
     parts: dict[str, str]
-    couplings: tuple[Coupling, ...]
+    couplings: Mapping[str, Mimic]
+    files: Mapping[str, bytes] = field(default_factory=dict)
 
 
 def prepared_urdf(arm: ArmModel[Any]) -> PreparedUrdf:
     """The URDF of an arm, ready to load.
 
     Raises:
-        IncompatibleError: If it is not XML, or lacks a joint or link that the arm names.
+        IncompatibleError: If it cannot be read, or lacks a joint or link that the arm names.
     """
     try:
-        robot = ET.fromstring(arm.urdf())
-    except ET.ParseError as error:
+        robot = read_robot(arm.urdf())
+    except InputError as error:
         raise IncompatibleError(f"PyBullet cannot load the URDF of {type(arm).__name__}: {error}") from None
     _refuse_lacking(arm, robot)
     outlined = {outline.part for outline in arm.shape.closed}
-    parts: dict[str, str] = {}
-    for link in robot.findall("link"):
-        for visual in link.findall("visual"):
-            link.remove(visual)
-        parts.update(_parts(robot, link, outlined))
-    return PreparedUrdf(ET.tostring(robot, encoding="unicode"), parts, tuple(_couplings(robot)))
+    pieces = [piece for link in robot.links.values() for piece in _pieces(link, outlined)]
+    files: dict[str, bytes] = {}
+    links = [_with_hull_files(link, files) for link, _, _ in sorted(pieces, key=lambda piece: piece[2] is not None)]
+    shells = [joint for _, _, joint in pieces if joint is not None]
+    split = Robot.of(robot.name, links, [*robot.parent_joints.values(), *shells])
+    couplings = {name: joint.mimic for name, joint in robot.moving.items() if joint.mimic}
+    return PreparedUrdf(robot_urdf(split), {link.name: part for link, part, _ in pieces}, couplings, files)
 
 
-def _refuse_lacking(arm: ArmModel[Any], robot: ET.Element) -> None:
-    joints, links = ({element.get("name") for element in robot.findall(kind)} for kind in ("joint", "link"))
+def _refuse_lacking(arm: ArmModel[Any], robot: Robot) -> None:
     wanted = [joint.name for joint in (*arm.joints, *arm.fingers.joints)]
-    wanted += [mimic.get("joint", "") for mimic in robot.iter("mimic")]
-    lacking = [name for name in wanted if name not in joints]
-    lacking += [name for name in (arm.tip_link, *arm.fingers.links) if name not in links]
+    wanted += [joint.mimic.joint for joint in robot.moving.values() if joint.mimic]
+    lacking = [name for name in wanted if name not in robot.moving]
+    lacking += [name for name in (arm.tip_link, *arm.fingers.links) if name not in robot.links]
     if lacking:
         raise IncompatibleError(f"the URDF of {type(arm).__name__} has no joint or link {', '.join(lacking)}")
 
 
-def _parts(robot: ET.Element, link: ET.Element, outlined: Container[str]) -> Iterator[tuple[str, str]]:
-    """What a link, and the links it is taken apart into, are called: as its outline, if it has one, or as it is."""
-    name, covers = link.get("name", ""), link.findall("collision")
-    own = [cover.get("name", "").removesuffix(COLLISION) for cover in covers]
-    if len(covers) == 1:
-        yield name, own[0] if own[0] in outlined else name
-        return
-    yield name, name
-    for part, cover in zip(own, covers, strict=True):
-        if part in outlined:
-            link.remove(cover)
-            yield _shell(robot, name, part, cover), part
+def _pieces(link: Link, outlined: Container[str]) -> Iterator[tuple[Link, str, RobotJoint | None]]:
+    """What a link is taken apart into, what each piece is called, as its outline or as the link, and how it hangs on."""
+    named = [(shape.name or f"{link.name} {shape.part}", shape) for shape in link.collision_geometry]
+    shells = [(part, shape) for part, shape in named if part in outlined] if len(named) != 1 else []
+    rest = tuple(shape for part, shape in named if not shells or part not in outlined)
+    yield (
+        replace(link, visuals=(), collision_geometry=rest),
+        named[0][0] if len(named) == 1 and named[0][0] in outlined else link.name,
+        None,
+    )
+    for part, shape in shells:
+        name = f"{link.name}/{part}"
+        yield Link(name, WEIGHTLESS, (shape,)), part, RobotJoint(link.name, name, fixed_name=f"{name} mount")
 
 
-def _shell(robot: ET.Element, parent: str, part: str, cover: ET.Element) -> str:
-    """A link without mass for one shape of another link."""
-    name = f"{parent}/{part}"
-    shell = ET.SubElement(robot, "link", name=name)
-    inertial = ET.SubElement(shell, "inertial")
-    ET.SubElement(inertial, "mass", value="0")
-    ET.SubElement(inertial, "inertia", dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), "0"))
-    shell.append(cover)
-    joint = ET.SubElement(robot, "joint", name=f"{name} mount", type="fixed")
-    ET.SubElement(joint, "parent", link=parent)
-    ET.SubElement(joint, "child", link=name)
-    return name
+def _with_hull_files(link: Link, files: dict[str, bytes]) -> Link:
+    """The link with its convex hulls in files beside the text, whose contents are added."""
+    return replace(link, collision_geometry=tuple(_in_file(shape, files) for shape in link.collision_geometry))
 
 
-def _couplings(robot: ET.Element) -> Iterator[Coupling]:
-    for joint in robot.findall("joint"):
-        mimic = joint.find("mimic")
-        if mimic is not None:
-            ratio, offset = float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0"))
-            yield Coupling(joint.get("name", ""), mimic.get("joint", ""), ratio, offset)
+def _in_file(shape: CollisionGeometry, files: dict[str, bytes]) -> CollisionGeometry:
+    if not isinstance(shape, ConvexHull):
+        return shape
+    name = f"hull_{len(files)}.obj"
+    files[name] = shape.wavefront()
+    return replace(shape, file=name, scale=(1.0, 1.0, 1.0))

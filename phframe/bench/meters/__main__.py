@@ -18,7 +18,7 @@ from phframe.bench.meters.overhead import measure
 from phframe.bench.meters.single import diagram_time, help_times
 from phframe.bench.meters.space import fit_in_space, measure_in_space
 from phframe.core import PhframeError
-from phframe.runtime.files import write_whole
+from phframe.core.files import write_file
 from phframe.runtime.scenes import scene_names
 
 WHAT = "suites: solve the published scenes; calibrate: fit pymunk to MuJoCo"
@@ -48,7 +48,7 @@ def _measure(given: argparse.Namespace, console: Console) -> None:
             **measure_in_space(console, scenes),
         }
     out = given.out or Path("runs") / f"{'bench' if given.what == 'all' else given.what}.json"
-    console.print(f"figures: {write_whole(out, json.dumps(figures, indent=1))}")
+    console.print(f"figures: {write_file(out, json.dumps(figures, indent=1))}")
 
 
 def command_line() -> argparse.ArgumentParser:

@@ -13,7 +13,7 @@ from typing import Any
 
 from phframe.bench.meters.sweeps import PlannedSweep, Score, compare, outcomes, planned_sweeps, score
 from phframe.core import State
-from phframe.runtime.solve import PLAN_OPTIONS
+from phframe.runtime.run import PLAN_OPTIONS
 
 Values = Mapping[str, float | None]
 GRID: Mapping[str, tuple[float | None, ...]] = {

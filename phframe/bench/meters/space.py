@@ -16,8 +16,8 @@ from phframe.bench.meters.simulation import BARE, BARS, Simulation, measure_simu
 from phframe.bench.meters.sweeps import Prediction, compare, outcomes, planned_sweeps, score
 from phframe.core import NotInstalledError
 from phframe.registry import Kind, create, load
+from phframe.runtime.run import PLAN_OPTIONS
 from phframe.runtime.scenes import find_scene
-from phframe.runtime.solve import PLAN_OPTIONS
 
 ENGINE = "mujoco"
 """Whose outcomes are predicted."""

@@ -13,7 +13,7 @@ from phframe.testing.expect import expect, expect_close, expect_equal
 from phframe.testing.subjects import ArmUnderTest
 from phframe.testing.tolerances import URDF
 
-GEOMETRIES = {"box", "cylinder", "sphere"}
+GEOMETRIES = {"box", "cylinder", "sphere", "mesh"}
 KINDS = {"revolute", "prismatic", "continuous", "fixed"}
 
 

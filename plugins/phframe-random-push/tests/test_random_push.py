@@ -52,7 +52,7 @@ def test_it_frees_the_target_of_an_easy_scene(seed: int) -> None:
 @pytest.mark.usefixtures("installed")
 def test_an_episode_is_run_with_it_by_name() -> None:
     episode = solve("vieira/simple-03", planner="random-push", seed=1)
-    assert episode.setup.planner == "random-push"
+    assert episode.spec.planner == "random-push"
     assert episode.status is Status.RETRIEVED, episode.reason
 
 

@@ -26,7 +26,7 @@ def test_every_scene_is_solved_once_and_announced() -> None:
     outcomes = run_suite("ooa", SCENES[:2], told.append)
     assert [(each.suite, each.scene) for each in outcomes] == [("vieira", SCENES[0]), ("papallas", SCENES[1])]
     assert told == [f"ooa {name}" for name in SCENES[:2]]
-    assert [each.episode.setup.planner for each in outcomes] == ["ooa", "ooa"]
+    assert [each.episode.spec.planner for each in outcomes] == ["ooa", "ooa"]
     assert outcomes[0].episode == solve(SCENES[0], planner="ooa", seed=0)
 
 
@@ -103,7 +103,7 @@ def _spilled(episode: Episode, plan: Plan) -> State:
 def test_a_suite_can_be_carried_out_in_space() -> None:
     pytest.importorskip("mujoco")
     (outcome,) = run_suite("phia", ["vieira/simple-10"], lambda scene: None, backend="mujoco")
-    assert outcome.episode.setup.backend == "mujoco"
+    assert outcome.episode.spec.backend == "mujoco"
     assert tally("phia", "vieira", [outcome]).motion_planning_time > 0.0
 
 

@@ -14,8 +14,8 @@ from phframe.bench.meters import __main__ as bench
 from phframe.bench.meters.calibrate import BEFORE, GAIN, GRID, Observed, Values, fit
 from phframe.bench.meters.simulation import Simulation, measure_simulation
 from phframe.bench.meters.sweeps import Prediction, Score, compare, outcomes, planned_sweeps, score
+from phframe.runtime.run import PLAN_OPTIONS
 from phframe.runtime.scenes import scene_names
-from phframe.runtime.solve import PLAN_OPTIONS
 from tests.markdown import table
 
 SCENES = ("vieira/simple-10", "papallas/s07")
@@ -114,10 +114,10 @@ def test_first_sweeps_are_predicted_as_well_as_documented() -> None:
 def test_solve_plans_with_what_was_fitted_and_says_so() -> None:
     pytest.importorskip("mujoco")
     plain = phframe.solve(SCENES[0], backend="mujoco")
-    assert dict(plain.setup.options["plan_backend"]) == PLAN_OPTIONS
+    assert dict(plain.spec.options["plan_backend"]) == PLAN_OPTIONS
     own = phframe.solve(SCENES[0], backend="mujoco", options={"plan_backend": {"arm_acceleration": 20.0}})
-    assert dict(own.setup.options["plan_backend"]) == {**PLAN_OPTIONS, "arm_acceleration": 20.0}
-    assert "plan_backend" not in phframe.solve(SCENES[0]).setup.options
+    assert dict(own.spec.options["plan_backend"]) == {**PLAN_OPTIONS, "arm_acceleration": 20.0}
+    assert "plan_backend" not in phframe.solve(SCENES[0]).spec.options
 
 
 @pytest.mark.needs_mujoco

@@ -1,4 +1,4 @@
-"""A gripper path as poses that follow one another closely."""
+"""Cartesian waypoints: a gripper path as poses that follow one another closely."""
 
 from __future__ import annotations
 
@@ -9,14 +9,12 @@ import numpy as np
 
 from phframe.core import FloatArray, GripperPath, IntArray
 
-SPACING = 0.005
-"""Between poses (m)."""
 TURN_SPACING = math.radians(1.5)
-"""Between poses (rad)."""
+"""Most that the yaw changes between poses (rad)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Waypoints:
+class CartesianWaypoints:
     """Poses along a path.
 
     Attributes:
@@ -29,24 +27,24 @@ class Waypoints:
     legs: IntArray
     lengths: FloatArray
 
-    def turned(self, yaw: float) -> Waypoints:
+    def turned(self, yaw: float) -> CartesianWaypoints:
         """The same with the gripper turned about the fingertip by an angle (rad)."""
         return replace(self, poses=self.poses + np.array([0.0, 0.0, yaw]))
 
 
-def waypoints(path: GripperPath) -> Waypoints:
-    """The corners of a path and poses between them; a leg in which only the gripper opens has one pose, its end."""
+def waypoints(path: GripperPath, spacing: float) -> CartesianWaypoints:
+    """The corners of a path and poses between them, at most a spacing (m) apart; a leg that only opens the gripper has one."""
     poses, legs = [path.poses[:1]], [0]
     for leg, (start, end) in enumerate(zip(path.poses[:-1], path.poses[1:], strict=True)):
-        count = _steps(end - start)
+        count = _steps(end - start, spacing)
         fractions = np.arange(1, count + 1)[:, None] / count
         poses.append(start + fractions * (end - start))
         legs += [leg] * count
     found = np.vstack(poses)
     ways = np.hypot(*np.diff(found[:, :2], axis=0).T)
-    return Waypoints(found, np.array(legs), np.concatenate([[0.0], np.cumsum(ways)]))
+    return CartesianWaypoints(found, np.array(legs), np.concatenate([[0.0], np.cumsum(ways)]))
 
 
-def _steps(step: FloatArray) -> int:
-    moves, turns = math.hypot(step[0], step[1]) / SPACING, abs(float(step[2])) / TURN_SPACING
+def _steps(step: FloatArray, spacing: float) -> int:
+    moves, turns = math.hypot(step[0], step[1]) / spacing, abs(float(step[2])) / TURN_SPACING
     return max(1, math.ceil(max(moves, turns) - 1e-9))

@@ -1,4 +1,4 @@
-"""What a good posture is, and points on the arm's covers: slopes are those of the values."""
+"""The null-space objective, and surface points of the arm's collision geometry: slopes are those of the values."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 pytest.importorskip("pinocchio")
 
 from phframe.core import FloatArray, compose, rotate, yaw_of
-from phframe.motion.posture import Posture
-from phframe.motion.surface_points import Skin
+from phframe.motion.null_space_objective import NullSpaceObjective
+from phframe.motion.surface_points import SurfacePoints
 from tests.motion.motions import MIDDLE, SHELF, baxter, example
 
 pytestmark = pytest.mark.needs_baxter
@@ -24,16 +24,16 @@ STEP = 1e-6
 
 
 @cache
-def skin(name: str) -> Skin:
+def surface(name: str) -> SurfacePoints:
     arm = ARMS[name]()
     base_pose = arm.default_base_pose(SHELF)
-    return Skin(arm.kinematics, arm.robot, arm.description.joints, arm.tip_link, base_pose, SHELF.depth)
+    return SurfacePoints(arm.kinematics, arm.robot, arm.description.joints, arm.tip_link, base_pose, SHELF.depth)
 
 
 @cache
-def posture(name: str) -> Posture:
+def objective(name: str) -> NullSpaceObjective:
     arm = ARMS[name]()
-    return Posture(arm.kinematics, skin(name), arm.description.behind, SHELF)
+    return NullSpaceObjective(arm.kinematics, surface(name), arm.description.behind, SHELF)
 
 
 def configuration(arm: Any, rng: np.random.Generator) -> FloatArray:
@@ -52,17 +52,17 @@ def test_points_move_as_their_speeds_say(seed: int, name: str) -> None:
     arm, rng = ARMS[name](), np.random.default_rng(seed)
     q = configuration(arm, rng)
     direction = rng.normal(size=len(q))
-    points, speeds = skin(name).seen(q, direction)
-    later, _ = skin(name).seen(q + STEP * direction, direction)
-    before, _ = skin(name).seen(q - STEP * direction, direction)
+    points, speeds = surface(name).seen(q, direction)
+    later, _ = surface(name).seen(q + STEP * direction, direction)
+    before, _ = surface(name).seen(q - STEP * direction, direction)
     np.testing.assert_allclose((later - before) / (2.0 * STEP), speeds, atol=1e-6)
     assert len(points) >= 24
 
 
-def test_points_are_on_the_covers_of_the_links_behind_the_gripper() -> None:
+def test_points_are_on_the_collision_geometry_of_the_links_behind_the_gripper() -> None:
     """Those of the tube before Baxter's wrist are 0.066 m from its axis, 0.219 m and more behind the fingertip."""
     arm = baxter()
-    points, _ = skin("left").seen(arm.home, np.zeros(7))
+    points, _ = surface("left").seen(arm.home, np.zeros(7))
     pose = compose(arm.default_base_pose(SHELF).pose, arm.forward(arm.home))
     ahead = rotate(pose[3:], np.array([1.0, 0.0, 0.0]))
     behind = -(points - pose[:3]) @ ahead
@@ -75,18 +75,15 @@ def test_points_are_on_the_covers_of_the_links_behind_the_gripper() -> None:
 
 @settings(max_examples=80, deadline=None)
 @given(seed=st.integers(0, 2**32), name=st.sampled_from(sorted(ARMS)))
-def test_slopes_are_those_of_the_strain(seed: int, name: str) -> None:
-    arm, rng, judged = ARMS[name](), np.random.default_rng(seed), posture(name)
+def test_slopes_are_those_of_the_residuals(seed: int, name: str) -> None:
+    arm, rng, judged = ARMS[name](), np.random.default_rng(seed), objective(name)
     q = configuration(arm, rng)
     direction, gripper = rng.normal(size=len(q)), seen(arm, q)
-    points, _ = skin(name).seen(q, direction)
+    points, _ = surface(name).seen(q, direction)
     near = points[rng.integers(len(points), size=3)]
-    judged.avoid(np.column_stack([near[:, :2] + rng.normal(0.0, 0.03, (3, 2)), np.full(3, 0.03), near[:, 2] + 0.02]))
-    try:
-        values, slopes = judged.strain(q, direction, gripper)
-        found = [judged.strain(q + sign * STEP * direction, direction, gripper)[0] for sign in (1.0, -1.0)]
-    finally:
-        judged.avoid(np.empty((0, 4)))
+    obstacles = np.column_stack([near[:, :2] + rng.normal(0.0, 0.03, (3, 2)), np.full(3, 0.03), near[:, 2] + 0.02])
+    values, slopes = judged.residuals(q, direction, gripper, obstacles)
+    found = [judged.residuals(q + sign * STEP * direction, direction, gripper, obstacles)[0] for sign in (1.0, -1.0)]
     if {len(one) for one in found} != {len(values)}:
         return  # an obstacle comes within reach of a point just here
     numeric = (found[0] - found[1]) / (2.0 * STEP)
@@ -95,10 +92,10 @@ def test_slopes_are_those_of_the_strain(seed: int, name: str) -> None:
     assert (np.abs(slopes) > 1e-6).any()
 
 
-def test_a_posture_with_the_forearm_across_is_wider_than_described() -> None:
+def test_a_configuration_with_the_forearm_across_is_wider_than_described() -> None:
     """Of the two in figures/baxter_mount.md for the fingertip 0.5 m deep, one has its forearm behind the gripper."""
-    arm, judged = baxter(), posture("left")
-    straight = arm.description.postures[0]
+    arm, judged = baxter(), objective("left")
+    straight = arm.description.seed_configurations[0]
     at = seen(arm, np.array(straight))
     assert judged.excess(np.array(straight), at) < 0.03
     angled = np.array([-1.031, -0.07492, 0.87285, 0.73256, 1.39329, 0.51496, 0.71163])
@@ -107,7 +104,7 @@ def test_a_posture_with_the_forearm_across_is_wider_than_described() -> None:
 
 
 def test_nothing_is_too_wide_before_the_mouth() -> None:
-    arm, judged = baxter(), posture("left")
+    arm, judged = baxter(), objective("left")
     at = seen(arm, arm.home)
     assert at[0] < 0.0
     assert judged.excess(np.array(arm.home), at + np.array([0.0, 1.0, 0.5])) == 0.0

@@ -1,8 +1,9 @@
-"""Paths between joint configurations, searched by OMPL."""
+"""Collision-free joint paths, searched by OMPL."""
 
 from __future__ import annotations
 
 import gc
+import math
 import os
 import pickle
 import signal
@@ -21,8 +22,9 @@ from hypothesis import strategies as st
 
 import phframe
 from phframe.core import ArmError, FloatArray, NotInstalledError, UnknownNameError
+from phframe.motion.budget import Budget
+from phframe.motion.collision_free_path import DEFAULT, PLANNERS, collision_free_path
 from phframe.motion.edges import Edges, bisection
-from phframe.motion.joint_path import DEFAULT, PLANNERS, joint_path
 from phframe.motion.path_shortcutting import shortened
 from tests.motion.mazes import Valid, length, limits, looked_at, walls
 
@@ -43,9 +45,10 @@ def solve(planner: str = DEFAULT, *, seed: int = 0, dof: int = 3, **changes: Any
     start[0], goal[0] = 0.4, len(gaps) + 0.6
     given: dict[str, Any] = {
         "start": start, "goals": goal[None], "lower": lower, "upper": upper, "valid": walls(*gaps), "planner": planner,
-        "resolution": RESOLUTION, "iterations": 500 if "star" in planner else 3000, "rng": np.random.default_rng(seed),
+        "resolution": RESOLUTION, "rng": np.random.default_rng(seed),
+        "stop": Budget(2 * changes.pop("iterations", 500 if "star" in planner else 3000), math.inf).search(),
     }  # fmt: skip
-    return joint_path(**{**given, **changes})
+    return collision_free_path(**{**given, **changes})
 
 
 def check(path: FloatArray | None, valid: Valid, *, start: FloatArray, goals: FloatArray, dof: int = 3) -> None:
@@ -76,7 +79,7 @@ def test_paths_through_two_gaps_are_valid_and_short(seed: int, planner: str) -> 
 
 PROGRAM = """
 import pickle, sys
-import tests.motion.test_joint_path as module
+import tests.motion.test_collision_free_path as module
 paths = [module.solve(planner, seed=7) for planner in module.PLANNERS]
 pickle.dump([path.tobytes() for path in paths], sys.stdout.buffer)
 """
@@ -125,8 +128,15 @@ def test_a_wall_without_a_gap_ends_after_the_iterations(planner: str) -> None:
 
 
 @needs_ompl
-def test_time_ends_it_too() -> None:
-    assert solve(valid=walls((5.0, 6.0)), iterations=10**9, seconds=0.2) is None
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_time_ends_it_too_and_the_budget_says_so(planner: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a clock that goes on by a second whenever someone looks at it."""
+    ticks = iter(range(10**9))
+    monkeypatch.setattr("phframe.motion.budget.time.monotonic", lambda: float(next(ticks)))
+    budget = Budget(10**9, 100.0)
+    assert solve(planner, valid=walls((5.0, 6.0)), stop=budget.search()) is None
+    assert budget.timed_out
+    assert 100 <= next(ticks) < 200
 
 
 @needs_ompl
@@ -183,7 +193,7 @@ def test_ctrl_c_stops_it(planner: str) -> None:
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.2)
         with pytest.raises(KeyboardInterrupt):
-            solve(planner, valid=lambda q: abs(float(q[0]) - 1.0) > 0.1, iterations=10**9, seconds=20.0)
+            solve(planner, valid=lambda q: abs(float(q[0]) - 1.0) > 0.1, iterations=10**9)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
@@ -256,9 +266,9 @@ def test_bad_input_is_answered_in_one_line(changes: dict[str, Any], what: str) -
 def ask(**changes: Any) -> None:
     given = {
         "start": np.zeros(3), "goals": np.zeros((1, 3)), "lower": -np.ones(3), "upper": np.ones(3), "valid": bool,
-        "resolution": 0.1, "iterations": 10, "rng": np.random.default_rng(0),
+        "resolution": 0.1, "stop": bool, "rng": np.random.default_rng(0),
     }  # fmt: skip
-    joint_path(**{**given, **changes})
+    collision_free_path(**{**given, **changes})
 
 
 @given(steps=st.integers(1, 700))

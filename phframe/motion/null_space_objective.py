@@ -1,4 +1,4 @@
-"""How good a posture is: narrow behind the gripper, off the shelf's walls, off the joints' limits."""
+"""Null-space objective: residuals of a configuration that is wide behind the gripper, near walls or near joint limits."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from phframe.core import FloatArray, Shelf
 from phframe.motion.pinocchio_ import Kinematics
-from phframe.motion.surface_points import Skin
+from phframe.motion.surface_points import SurfacePoints
 from phframe.urdf.description import Section
 
 WALL_ROOM = 0.02
@@ -19,7 +19,7 @@ WALL_WEIGHT = 2.0
 """What a lack of that room counts, against as much too wide."""
 OBSTACLE_ROOM, OBSTACLE_WEIGHT = 0.01, 4.0
 """Wished for between the arm and what it must not touch (m), and what a lack of it counts."""
-LIMIT_SHARE = 0.85
+LIMIT_FRACTION = 0.85
 """Of a joint's range, about its middle: to be kept to."""
 LIMIT_WEIGHT, CENTER_WEIGHT = 0.3, 0.003
 """What a fraction of a joint's range beyond that counts, and one of the range itself (m)."""
@@ -27,53 +27,51 @@ MOUTH_ROOM = 0.05
 """What is farther than this before the mouth (m) meets no wall of the shelf."""
 
 
-class Posture:
-    """Judges joint values for a gripper pose in a shelf.
+class NullSpaceObjective:
+    """Judges joint values for a gripper pose in a shelf, by a sum of squares of residuals.
 
     Args:
         kinematics: Of the arm.
-        skin: Of the arm.
+        surface: Points on the arm.
         behind: How wide the arm is described to be.
         shelf: The shelf.
     """
 
-    def __init__(self, kinematics: Kinematics, skin: Skin, behind: Sequence[Section], shelf: Shelf) -> None:
-        self._skin, self._shelf = skin, shelf
+    def __init__(self, kinematics: Kinematics, surface: SurfacePoints, behind: Sequence[Section], shelf: Shelf) -> None:
+        self._surface, self._shelf = surface, shelf
         self._middle = (kinematics.upper + kinematics.lower) / 2.0
         self._half = (kinematics.upper - kinematics.lower) / 2.0
         self._profiles = [np.array(section.widths) for section in behind]
         self._still = np.zeros(kinematics.dof)
-        self._obstacles = np.empty((0, 4))
 
-    def avoid(self, obstacles: FloatArray) -> None:
-        """Keep off upright cylinders from now on: x, y, radius and top of each ``(m, 4)`` in the shelf frame (m)."""
-        self._obstacles = obstacles
-
-    def strain(self, q: FloatArray, direction: FloatArray, gripper: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def residuals(
+        self, q: FloatArray, direction: FloatArray, gripper: FloatArray, obstacles: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         """What is wrong with joint values, and how that changes as they move in a direction.
 
         Args:
             q: Joint values ``(dof,)``.
             direction: Of the joints ``(dof,)``, with which the gripper stays.
             gripper: Its pose ``(3,)`` seen from above.
+            obstacles: Upright cylinders to keep off ``(m, 4)``: x, y, radius and top (m), in the shelf frame.
 
         Returns:
             Residuals ``(k,)``, whose sum of squares is to be small, and their slopes ``(k,)``.
         """
-        points, speeds = self._skin.seen(q, direction)
+        points, speeds = self._surface.seen(q, direction)
         width, width_slope = self._too_wide(points, speeds, gripper)
         room, room_slope = self._too_near(points, speeds)
         fraction, rate = (q - self._middle) / self._half, direction / self._half
-        beyond = np.maximum(np.abs(fraction) - LIMIT_SHARE, 0.0)
+        beyond = np.maximum(np.abs(fraction) - LIMIT_FRACTION, 0.0)
         limit_slope = np.where(beyond > 0.0, np.sign(fraction) * rate, 0.0)
-        near, near_slope = self._too_near_obstacles(points, speeds)
+        near, near_slope = _too_near_obstacles(points, speeds, obstacles)
         residuals = (width, room, near, LIMIT_WEIGHT * beyond, CENTER_WEIGHT * fraction)
         slopes = (width_slope, room_slope, near_slope, LIMIT_WEIGHT * limit_slope, CENTER_WEIGHT * rate)
         return np.concatenate(residuals), np.concatenate(slopes)
 
     def excess(self, q: FloatArray, gripper: FloatArray) -> float:
         """By how much the arm in the shelf is wider than it is described (m), 0 if nowhere."""
-        points, speeds = self._skin.seen(q, self._still)
+        points, speeds = self._surface.seen(q, self._still)
         wide = self._too_wide(points, speeds, gripper)[0]
         return max(0.0, float(wide.max(initial=0.0)) - WIDTH_ROOM)
 
@@ -101,13 +99,14 @@ class Posture:
         slopes = np.array([sign * speeds[:, axis] for sign, axis in zip(signs, axes, strict=True)])
         return WALL_WEIGHT * lacking.ravel(), WALL_WEIGHT * np.where(lacking > 0.0, slopes, 0.0).ravel()
 
-    def _too_near_obstacles(self, points: FloatArray, speeds: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """How far points are too near to obstacles, and the slope of that."""
-        if not len(self._obstacles):
-            return np.empty(0), np.empty(0)
-        away = points[:, None, :2] - self._obstacles[None, :, :2]
-        distance = np.maximum(np.hypot(away[..., 0], away[..., 1]), 1e-9)
-        lacking = OBSTACLE_ROOM + self._obstacles[:, 2] - distance
-        counts = (lacking > 0.0) & (points[:, None, 2] < self._obstacles[:, 3] + OBSTACLE_ROOM)
-        slope = -(away * speeds[:, None, :2]).sum(axis=2) / distance
-        return OBSTACLE_WEIGHT * lacking[counts], OBSTACLE_WEIGHT * slope[counts]
+
+def _too_near_obstacles(points: FloatArray, speeds: FloatArray, obstacles: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """How far points are too near to obstacles, and the slope of that."""
+    if not len(obstacles):
+        return np.empty(0), np.empty(0)
+    away = points[:, None, :2] - obstacles[None, :, :2]
+    distance = np.maximum(np.hypot(away[..., 0], away[..., 1]), 1e-9)
+    lacking = OBSTACLE_ROOM + obstacles[:, 2] - distance
+    counts = (lacking > 0.0) & (points[:, None, 2] < obstacles[:, 3] + OBSTACLE_ROOM)
+    slope = -(away * speeds[:, None, :2]).sum(axis=2) / distance
+    return OBSTACLE_WEIGHT * lacking[counts], OBSTACLE_WEIGHT * slope[counts]

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from phframe.arms.reach import YAWS, Reachability
 from phframe.core import Scene
+from phframe.core.files import write_file
+from phframe.motion.reachability import YAWS, Reachability
 
 SIZE, DOTS = (6.4, 6.4), 120
 """Of the picture: inches, and dots per inch."""
@@ -27,7 +28,7 @@ def draw_reach(reach: Reachability, scene: Scene, title: str, path: Path) -> Non
         title: Above the map; the fraction is put after it.
         path: The PNG file to write.
     """
-    path.write_bytes(reach_picture(reach, scene, title))
+    write_file(path, reach_picture(reach, scene, title))
 
 
 def reach_picture(reach: Reachability, scene: Scene, title: str) -> bytes:

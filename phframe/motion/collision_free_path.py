@@ -1,4 +1,4 @@
-"""Paths between joint configurations, for the motion between actions: straight where that is free, else searched."""
+"""Collision-free joint paths from a configuration to others: straight where possible, else by a sampling-based planner."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from phframe.motion.edges import Edges
 from phframe.motion.path_shortcutting import shortened
 
 DEFAULT = "RRTConnect"
-"""Among those that found a way in all of 65 problems on Baxter at a shelf, given rounds enough, the fastest."""
+"""Among those that found a path in all of 65 problems on Baxter at a shelf, given iterations enough, the fastest."""
 PLANNERS = (
     "AORRTC", "BFMT", "BITstar", "BKPIECE1", "BiEST", "FMT", "InformedRRTstar", "KPIECE1", "LBKPIECE1", "RRT",
     "RRTConnect", "RRTstar", "SORRTstar",
@@ -22,7 +22,7 @@ PLANNERS = (
 """Of OMPL by its class names, and BiEST. Not PRM and PRMstar: they end by the clock, so they do not repeat."""
 
 
-def joint_path(
+def collision_free_path(
     start: FloatArray,
     goals: FloatArray,
     *,
@@ -31,15 +31,14 @@ def joint_path(
     valid: Callable[[FloatArray], bool],
     planner: str = DEFAULT,
     resolution: float,
-    iterations: int,
-    seconds: float = math.inf,
+    stop: Callable[[], bool],
     rng: np.random.Generator,
 ) -> FloatArray | None:
     """Waypoints ``(k, dof)``, k at least 2, from a configuration to one of several others, or None.
 
     The straight line is tried first, to the nearest goals first (Euclidean norm); then OMPL searches, and what it finds
     is shortened. Straight edges between the waypoints are valid in steps in which no joint moves by more than the
-    resolution. The same inputs give the same bits, whatever ran before, as long as ``seconds`` do not run out.
+    resolution. The same inputs give the same bits, whatever ran before, if ``stop`` repeats too.
 
     Args:
         start: Joint values ``(dof,)``.
@@ -49,8 +48,7 @@ def joint_path(
         valid: Whether a configuration ``(dof,)`` is allowed; what it raises comes out of here as it is.
         planner: One of PLANNERS. RRTstar, InformedRRTstar, SORRTstar, BITstar and AORRTC use up all iterations.
         resolution: Most that a joint moves between two configurations that are looked at (rad or m), above 0.
-        iterations: Rounds of the planner after which it gives up.
-        seconds: Time after which it gives up too, which does not repeat.
+        stop: Asked in each iteration of the planner; True: it gives up.
         rng: The only source of randomness.
 
     Returns:
@@ -75,7 +73,6 @@ def joint_path(
             return np.array([start, goal])
     if not len(ends):
         return None
-    stop = ompl.stopping_after(iterations, seconds)
     path = ompl.search(start, ends, (lower, upper), edges, planner, stop, rng)
     return None if path is None else shortened(path, edges, rng)
 

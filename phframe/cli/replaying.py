@@ -1,0 +1,108 @@
+"""What ``phframe replay`` does."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from phframe.cli.console import emit
+from phframe.cli.episodes import read_episode
+from phframe.cli.exit_codes import ExitCode
+from phframe.cli.run import Report, carry_out, view
+from phframe.cli.run_directory import RunDirectory
+from phframe.core import Episode
+from phframe.runtime.replay import differing_versions, first_difference, spec_of
+
+FORMAT = 1
+"""Of the JSON object."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What ``phframe replay`` was asked for.
+
+    Attributes:
+        episode: A directory, or a file.
+        planner: Instead of the episode's; None: the same.
+        backend: Likewise.
+        arm: Likewise.
+        out: Directory for the files; None: none, or a new one.
+        view: Whether to open the viewer.
+        as_json: Whether to print JSON.
+    """
+
+    episode: Path
+    planner: str | None
+    backend: str | None
+    arm: str | None
+    out: Path | None
+    view: bool
+    as_json: bool
+
+
+def run(wanted: Wanted) -> int:
+    """Repeat an episode and print how the repetition compares.
+
+    Returns:
+        The exit code.
+
+    Raises:
+        PhframeError: If the episode cannot be read or repeated; nothing was written then.
+    """
+    before = read_episode(wanted.episode)
+    spec = spec_of(before, planner=wanted.planner, backend=wanted.backend, arm=wanted.arm)
+    kept = wanted.out is not None or wanted.view
+    report = Report(wanted.out, record=True if wanted.view else None if kept else False, view=wanted.view)
+    directory = RunDirectory(wanted.out, keep=kept)
+    carried = carry_out(spec, report, directory)
+    if carried is None:
+        return ExitCode.INTERRUPTED
+    same_parts = all(getattr(spec, part) == getattr(before.spec, part) for part in ("planner", "backend", "arm"))
+    found = _compared(before, carried[0], bits=same_parts)
+    emit(json.dumps(found, allow_nan=False) if wanted.as_json else _sentence(found))
+    view(report, directory)
+    return ExitCode.SUCCESS if found["same"] else ExitCode.OTHER_OUTCOME
+
+
+def _compared(before: Episode, after: Episode, *, bits: bool) -> dict[str, Any]:
+    difference = first_difference(before, after) if bits else None
+    versions = differing_versions(before)
+    return {
+        "format": FORMAT,
+        "compared": "bits" if bits else "outcome",
+        "same": difference is None if bits else before.status is after.status,
+        "difference": None if difference is None else {**asdict(difference), "distance": _finite(difference.distance)},
+        "sentence": "" if difference is None else str(difference),
+        "versions": {name: list(pair) for name, pair in versions.items()},
+        "before": _outcome(before),
+        "after": _outcome(after),
+    }
+
+
+def _finite(distance: float | None) -> float | None:
+    return None if distance is None or distance == float("inf") else distance
+
+
+def _outcome(episode: Episode) -> dict[str, Any]:
+    return {
+        "status": str(episode.status),
+        "reason": episode.reason,
+        "actions": episode.pushes,
+        "replans": episode.replans,
+        "clean": episode.clean,
+    }
+
+
+def _sentence(found: dict[str, Any]) -> str:
+    before, after = (
+        f"{each['status']} with {each['actions']} pushes and {each['replans']} replans"
+        for each in (found["before"], found["after"])
+    )
+    if found["compared"] == "outcome":
+        return f"{'the same' if found['same'] else 'another'} outcome: {after}; before: {before}"
+    if found["same"]:
+        return f"the same, bit by bit: {after}"
+    named = ", ".join(f"{name} {then}, here {now}" for name, (then, now) in found["versions"].items())
+    return f"not the same: {found['sentence']}; {f'other versions: {named}' if named else 'all versions are the same'}"
