@@ -20,7 +20,7 @@ from phframe.core import (
     State,
     Unreachable,
 )
-from phframe.motion.budget import Budget
+from phframe.motion.budget import SearchBudget
 from phframe.motion.cartesian_following import CartesianFollower
 from phframe.motion.cartesian_path import OUTSIDE, CartesianPathFollower, JointPath, pose_text
 from phframe.motion.cartesian_waypoints import waypoints
@@ -103,7 +103,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
         """Plan a joint trajectory: the same inputs give the same bits, or ``timed_out`` where the time was up before."""
-        budget = Budget(self.options.search, seconds)
+        budget = SearchBudget(self.options.search, seconds)
         begin, opening = self._where(state)
         if begin is None:
             where = "" if state.arm is None else f", at {pose_text(state.arm.gripper)}"
@@ -123,7 +123,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         return joints, state.arm.commanded_opening
 
     def _planned(
-        self, problem: _Problem, attempts: int, budget: Budget, rng: np.random.Generator
+        self, problem: _Problem, attempts: int, budget: SearchBudget, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
         """From where the gripper is, if the path begins there and that can be; else by an approach from outside."""
         found = self._onwards(problem) if self._begins_here(problem) else None
@@ -145,7 +145,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         return math.hypot(x, y) < SAME_POSITION and abs(math.remainder(yaw, math.tau)) < SAME_YAW
 
     def _approached(
-        self, problem: _Problem, attempts: int, budget: Budget, rng: np.random.Generator
+        self, problem: _Problem, attempts: int, budget: SearchBudget, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
         """The joint path to where one that follows the gripper path begins, and that one."""
         tolerance, paths = self.options.yaw_tolerance, self._paths(problem, start=None)
@@ -165,7 +165,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         return self._time_parametrisation.trajectory(segments)
 
     def _approach(
-        self, problem: _Problem, found: JointPath, budget: Budget, rng: np.random.Generator
+        self, problem: _Problem, found: JointPath, budget: SearchBudget, rng: np.random.Generator
     ) -> FloatArray | Unreachable:
         """Corners ``(k, dof)`` of a joint path to where another begins, collision-free but for what touches at its start."""
         begin, end = problem.begin, found.joints[0]

@@ -44,7 +44,7 @@ RETREAT_SPEED = 0.25
 """Of the fingertip that draws back after a stall (m/s)."""
 LEAST_SERVED = 0.7
 """Fraction of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
-MOTION_ATTEMPTS, MOTION_SECONDS = 10, 30.0
+MOTION_ATTEMPTS, MOTION_SECONDS = 10, 300.0
 """How often a motion planner may try anew, and for how long (s)."""
 
 
