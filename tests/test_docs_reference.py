@@ -151,7 +151,7 @@ def test_what_runs_where_is_what_the_markers_say() -> None:
         assert cells == found, (backend, arm)
 
 
-def test_every_settlement_is_explained() -> None:
+def test_every_deviation_is_explained() -> None:
     assert column("docs/planners.md", "Deviations of what the paper leaves open") == list(Deviation)
 
 
@@ -167,9 +167,10 @@ def test_options_of_the_generator_are_explained() -> None:
 
 def test_what_is_said_of_an_arm_is_explained() -> None:
     rows = table("docs/robots.md", "The description")
-    assert [row[0] for row in rows] == list(ArmDescription.model_fields)
+    fields = {field.alias or name: field for name, field in ArmDescription.model_fields.items()}
+    assert [row[0] for row in rows] == list(fields)
     for key, default, text in rows:
-        field = ArmDescription.model_fields[key]
+        field = fields[key]
         assert default in ("", str(field.default)) or not (field.is_required() or field.default), key
         assert (default == "") is (field.is_required() or key == "urdf"), key
         parts: dict[str, type[BaseModel]] = {"tip": TipFrame, "shelf": Stand, "behind": Section}

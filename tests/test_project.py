@@ -192,3 +192,12 @@ def test_every_module_says_what_it_is() -> None:
     modules = list((ROOT / "phframe").rglob("*.py"))
     assert modules
     assert [path for path in modules if not ast.get_docstring(ast.parse(path.read_text("utf-8")))] == []
+
+
+def test_every_class_has_a_name_of_its_own() -> None:
+    homes: dict[str, list[str]] = {}
+    for path in sorted((ROOT / "phframe").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                homes.setdefault(node.name, []).append(str(path.relative_to(ROOT)))
+    assert {name: paths for name, paths in homes.items() if len(paths) > 1} == {}

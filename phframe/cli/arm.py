@@ -90,6 +90,6 @@ def reach(
     The gripper is level, in its plane above the board, and turned by no more than 30 degrees.
     """
     options = only_parts(parse_options(option or ()), "arm", "scenes")
-    from phframe.cli.reaching import Wanted, run  # heavy, and not needed where the options are wrong
+    from phframe.cli.reaching import ReachRequest, run  # heavy, and not needed where the options are wrong
 
-    run(Wanted(arm, scene, base_pose, out, options, as_json, force))
+    run(ReachRequest(arm, scene, base_pose, out, options, as_json, force))

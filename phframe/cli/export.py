@@ -74,6 +74,6 @@ def export(
     The world frame of all files is the shelf frame: x into the shelf, y from the south to the north wall, z up; m, rad, kg.
     """
     options = only_parts(parse_options(option or ()), "arm", "scenes")
-    from phframe.cli.exporting import Wanted, run  # heavy, and not needed where the options are wrong
+    from phframe.cli.exporting import ExportRequest, run  # heavy, and not needed where the options are wrong
 
-    run(Wanted(what, format_name, out, arm, options, action, force))
+    run(ExportRequest(what, format_name, out, arm, options, action, force))

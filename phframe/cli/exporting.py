@@ -20,7 +20,7 @@ ARM_FILE = "arm.urdf"
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class ExportRequest:
     """What ``phframe export`` was asked for.
 
     Attributes:
@@ -42,7 +42,7 @@ class Wanted:
     force: bool
 
 
-def run(wanted: Wanted) -> None:
+def run(wanted: ExportRequest) -> None:
     """Write what is wanted.
 
     Raises:
@@ -63,7 +63,7 @@ def run(wanted: Wanted) -> None:
         output.write(_scene_text(scene, wanted, form))
 
 
-def _find(wanted: Wanted) -> Scene | Episode:
+def _find(wanted: ExportRequest) -> Scene | Episode:
     from phframe.runtime.scenes import find_scene
 
     path = user_path(wanted.what)
@@ -76,7 +76,7 @@ def _find(wanted: Wanted) -> Scene | Episode:
     return find_scene(wanted.what, wanted.options["scenes"])
 
 
-def _form(wanted: Wanted, subject: Scene | Episode) -> Format:
+def _form(wanted: ExportRequest, subject: Scene | Episode) -> Format:
     name = wanted.format_name
     if name is None:
         suffix = Path(wanted.out).suffix.lower()
@@ -87,7 +87,7 @@ def _form(wanted: Wanted, subject: Scene | Episode) -> Format:
     return FORMATS[name]
 
 
-def _check(wanted: Wanted, subject: Scene | Episode, form: Format) -> None:
+def _check(wanted: ExportRequest, subject: Scene | Episode, form: Format) -> None:
     episode = isinstance(subject, Episode)
     if form.of_episode and not episode:
         raise InputError(
@@ -104,7 +104,7 @@ def _check(wanted: Wanted, subject: Scene | Episode, form: Format) -> None:
         raise OptionError(f"--action goes with json and csv, not with {form.name}")
 
 
-def _trajectories(episode: Episode, wanted: Wanted, form: Format) -> str:
+def _trajectories(episode: Episode, wanted: ExportRequest, form: Format) -> str:
     from phframe.runtime.joint_trajectories import as_csv, as_json, joint_trajectories, refuse_no_joints
 
     refuse_no_joints(episode)
@@ -114,7 +114,7 @@ def _trajectories(episode: Episode, wanted: Wanted, form: Format) -> str:
     return as_csv(found) if form.name == "csv" else as_json(episode, found)
 
 
-def _scene_text(scene: Scene, wanted: Wanted, form: Format) -> str:
+def _scene_text(scene: Scene, wanted: ExportRequest, form: Format) -> str:
     if form.name == "urdf":
         from phframe.scenes.urdf import scene_to_urdf
 
@@ -131,7 +131,7 @@ def _scene_text(scene: Scene, wanted: Wanted, form: Format) -> str:
     return with_arm(text, arm, base_pose)
 
 
-def _parts(scene: Scene, wanted: Wanted) -> dict[str, str]:
+def _parts(scene: Scene, wanted: ExportRequest) -> dict[str, str]:
     from phframe.scenes.urdf import LIST_FILE, scene_parts
 
     parts = scene_parts(scene)
@@ -144,7 +144,7 @@ def _parts(scene: Scene, wanted: Wanted) -> dict[str, str]:
     return {**parts, ARM_FILE: arm.urdf(), LIST_FILE: json.dumps(listed, indent=1) + "\n"}
 
 
-def _arm(scene: Scene, wanted: Wanted) -> tuple[ArmModel[Any], BasePose]:
+def _arm(scene: Scene, wanted: ExportRequest) -> tuple[ArmModel[Any], BasePose]:
     assert wanted.arm is not None, "asked for"
     arm = create(Kind.ARM, wanted.arm, wanted.options["arm"])
     return arm, scene.base_poses.get(wanted.arm) or arm.default_base_pose(scene.shelf)

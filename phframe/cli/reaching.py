@@ -25,7 +25,7 @@ PICTURE = ".png"
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class ReachRequest:
     """What ``phframe arm reach`` was asked for.
 
     Attributes:
@@ -47,7 +47,7 @@ class Wanted:
     force: bool
 
 
-def run(wanted: Wanted) -> None:
+def run(wanted: ReachRequest) -> None:
     """Print the fractions, and draw the map if that is wanted.
 
     Raises:
@@ -67,7 +67,7 @@ def run(wanted: Wanted) -> None:
     emit(json.dumps(fractions, allow_nan=False) if wanted.as_json else _sentence(fractions))
 
 
-def _output(wanted: Wanted) -> Output | None:
+def _output(wanted: ReachRequest) -> Output | None:
     if wanted.out is None:
         return None
     if not wanted.out.lower().endswith(PICTURE):

@@ -77,6 +77,6 @@ def replay(
     With another planner, backend or arm the outcomes are compared. Exit code 0: the same; 1: not the same; 2: bad input;
     3: something not installed; 130: Ctrl-C.
     """
-    from phframe.cli.replaying import Wanted, run  # heavy, and not needed where the command line is wrong
+    from phframe.cli.replaying import ReplayRequest, run  # heavy, and not needed where the command line is wrong
 
-    raise typer.Exit(run(Wanted(episode, planner, backend, arm, out, view, as_json)))
+    raise typer.Exit(run(ReplayRequest(episode, planner, backend, arm, out, view, as_json)))

@@ -10,7 +10,7 @@ from typing import Any
 from phframe.cli.console import emit
 from phframe.cli.episodes import read_episode
 from phframe.cli.exit_codes import ExitCode
-from phframe.cli.run import Report, carry_out, view
+from phframe.cli.run import RunOutput, carry_out, view
 from phframe.cli.run_directory import RunDirectory
 from phframe.core import Episode
 from phframe.runtime.replay import differing_versions, first_difference, spec_of
@@ -20,7 +20,7 @@ FORMAT = 1
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class ReplayRequest:
     """What ``phframe replay`` was asked for.
 
     Attributes:
@@ -42,7 +42,7 @@ class Wanted:
     as_json: bool
 
 
-def run(wanted: Wanted) -> int:
+def run(wanted: ReplayRequest) -> int:
     """Repeat an episode and print how the repetition compares.
 
     Returns:
@@ -54,7 +54,7 @@ def run(wanted: Wanted) -> int:
     before = read_episode(wanted.episode)
     spec = spec_of(before, planner=wanted.planner, backend=wanted.backend, arm=wanted.arm)
     kept = wanted.out is not None or wanted.view
-    report = Report(wanted.out, record=True if wanted.view else None if kept else False, view=wanted.view)
+    report = RunOutput(wanted.out, record=True if wanted.view else None if kept else False, view=wanted.view)
     directory = RunDirectory(wanted.out, keep=kept)
     carried = carry_out(spec, report, directory)
     if carried is None:

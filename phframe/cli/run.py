@@ -25,7 +25,7 @@ SUMMARY = "summary.json"
 
 
 @dataclass(frozen=True, slots=True)
-class Report:
+class RunOutput:
     """What a run is to leave and to print.
 
     Attributes:
@@ -45,7 +45,7 @@ class Report:
     quiet: bool = False
 
 
-def run(spec: RunSpec, report: Report) -> int:
+def run(spec: RunSpec, report: RunOutput) -> int:
     """Carry out a run, and leave and print what is wanted of it.
 
     Returns:
@@ -69,7 +69,7 @@ def run(spec: RunSpec, report: Report) -> int:
     return ExitCode.SUCCESS if episode.status.is_success else ExitCode.OTHER_OUTCOME
 
 
-def carry_out(spec: RunSpec, report: Report, directory: RunDirectory) -> tuple[Episode, dict[str, Any]] | None:
+def carry_out(spec: RunSpec, report: RunOutput, directory: RunDirectory) -> tuple[Episode, dict[str, Any]] | None:
     """Carry out a run and leave the files that are wanted.
 
     Returns:
@@ -94,7 +94,7 @@ def carry_out(spec: RunSpec, report: Report, directory: RunDirectory) -> tuple[E
         directory.discard_if_empty()
 
 
-def view(report: Report, directory: RunDirectory) -> None:
+def view(report: RunOutput, directory: RunDirectory) -> None:
     """Open the viewer, if that is wanted."""
     if report.view and directory.path is not None and (directory.path / RECORDING).exists():
         open_viewer(directory.path / RECORDING)

@@ -231,7 +231,7 @@ def solve(
         raise typer.BadParameter(
             "there is nothing to view without a recording. Leave out --no-rerun.", param_hint="--view"
         )
-    from phframe.cli.run import Report, run  # heavy, and not needed where the command line is wrong
+    from phframe.cli.run import RunOutput, run  # heavy, and not needed where the command line is wrong
     from phframe.core import Loop, RunSpec
     from phframe.runtime.noise import Noise
 
@@ -250,4 +250,4 @@ def solve(
         Noise.of(noise).model_dump(exclude_defaults=True),
         workers,
     )
-    raise typer.Exit(run(spec, Report(out, True if view else rerun, video, view, as_json, quiet)))
+    raise typer.Exit(run(spec, RunOutput(out, True if view else rerun, video, view, as_json, quiet)))

@@ -24,12 +24,12 @@ from phframe.core.gripper_path import MOUTH_CLEARANCE, Contacts, GripperPath, Ph
 from phframe.core.infeasible import Infeasible
 from phframe.core.mesh import LinkMesh
 from phframe.core.motion import FORCE_WINDOW, Contact, Motion, StopCause, StopReason, Transition
-from phframe.core.motion_planner import MotionPlanner
+from phframe.core.motion_planner import MotionPlanner, SupportsMotionPlanning, motion_planner_of
 from phframe.core.options import Options
 from phframe.core.physics import Physics, Settle, Stop, SupportsPropagation, Watch
 from phframe.core.plan import Cost, Plan
 from phframe.core.planner import Planner
-from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, tilt_of, yaw_of
+from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, seen_from_above, tilt_of, yaw_of
 from phframe.core.rejection import Rejection
 from phframe.core.run_spec import Loop, RunSpec, StoredName
 from phframe.core.scene import Scene, coulomb_with_board
@@ -119,6 +119,7 @@ __all__ = [
     "StopCause",
     "StopReason",
     "StoredName",
+    "SupportsMotionPlanning",
     "SupportsPropagation",
     "Task",
     "TopologyEngine",
@@ -134,10 +135,12 @@ __all__ = [
     "controlled_path",
     "coulomb_with_board",
     "inverse",
+    "motion_planner_of",
     "planar_pose",
     "refuse_foreign",
     "rotate",
     "rotation_matrix",
+    "seen_from_above",
     "starting_from",
     "tilt_of",
     "time_path",

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import ClassVar, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from phframe.core.errors import ArmError, IncompatibleError
+from phframe.core.errors import ArmError
 from phframe.core.mesh import LinkMesh
 from phframe.core.options import Options
-from phframe.core.scene import Scene
+from phframe.core.pose import compose, inverse, planar_pose, seen_from_above
 from phframe.core.shelf import BasePose, Shelf
 from phframe.core.value import FloatArray, Floats, Value, short_repr
-
-if TYPE_CHECKING:
-    from phframe.core.motion_planner import MotionPlanner
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -179,7 +176,7 @@ class ArmModel(ABC, Generic[OptionsT]):
 
     @abstractmethod
     def urdf(self) -> str:
-        """The arm as URDF text, made of primitives.
+        """The arm as URDF text, made of primitives, and of meshes that count as their convex hulls.
 
         Its joints and links bear the names in ``joints``, ``fingers`` and ``tip_link``; inertias, limits and collision
         shapes are the real ones.
@@ -189,16 +186,14 @@ class ArmModel(ABC, Generic[OptionsT]):
         """What links really look like, for pictures; a link without any is drawn as the primitives of ``urdf``."""
         return ()
 
-    def motion_planner(self, scene: Scene, base_pose: BasePose) -> MotionPlanner[Any]:
-        """What lifts the gripper's paths to joints, for backends that drive those.
+    def gripper_pose(self, q: ArrayLike, base_pose: BasePose) -> FloatArray:
+        """Fingertip pose seen from above ``(3,)``, x, y (m), yaw (rad) in the shelf frame, for joint values ``(dof,)``."""
+        return seen_from_above(compose(base_pose.pose, self.forward(q)))
 
-        Raises:
-            IncompatibleError: If this arm has none.
-        """
-        raise IncompatibleError(
-            f"{type(self).__name__} has no motion planner, so no backend that drives joints can move it: "
-            "take the backend pymunk, or another arm, such as planar"
-        )
+    def fingertip_pose(self, gripper: ArrayLike, base_pose: BasePose) -> FloatArray:
+        """Pose ``(7,)`` in the frame of the base of a fingertip that is level in the gripper plane at ``(3,)``: x, y, yaw."""
+        x, y, yaw = np.asarray(gripper, dtype=np.float64).tolist()
+        return compose(inverse(base_pose.pose), planar_pose(x, y, self.shape.height, yaw))
 
     def fraction_served(self, shelf: Shelf, base_pose: BasePose) -> float | None:
         """Of a shelf, the fraction over which the joints can take the fingertip; quickly, so to within a tenth.

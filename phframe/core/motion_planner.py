@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar, Generic, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
 from phframe.core.arm import ArmModel
+from phframe.core.errors import IncompatibleError
 from phframe.core.gripper_path import GripperPath
 from phframe.core.options import Options
 from phframe.core.scene import Scene
@@ -44,3 +45,25 @@ class MotionPlanner(ABC, Generic[OptionsT]):
             seconds: Time after which a hopeless search ends all the same; the result then says so (``timed_out``).
             rng: The only source of randomness.
         """
+
+
+@runtime_checkable
+class SupportsMotionPlanning(Protocol):
+    """What an arm offers that backends which drive joints can move."""
+
+    def motion_planner(self, scene: Scene, base_pose: BasePose) -> MotionPlanner[Any]:
+        """What plans joint trajectories for the gripper's paths, in a scene and with the base at a pose."""
+
+
+def motion_planner_of(arm: ArmModel[Any], scene: Scene, base_pose: BasePose) -> MotionPlanner[Any]:
+    """The motion planner of an arm.
+
+    Raises:
+        IncompatibleError: If it has none.
+    """
+    if isinstance(arm, SupportsMotionPlanning):
+        return arm.motion_planner(scene, base_pose)
+    raise IncompatibleError(
+        f"{type(arm).__name__} has no motion planner, so no backend that drives joints can move it: "
+        "take the backend pymunk, or another arm, such as planar"
+    )

@@ -27,6 +27,12 @@ def tilt_of(pose: ArrayLike) -> float:
     return math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * (x * x + y * y))))
 
 
+def seen_from_above(pose: ArrayLike) -> FloatArray:
+    """What is seen of a pose ``(7,)`` from above ``(3,)``: x, y and heading."""
+    x, y, *_ = np.asarray(pose, dtype=np.float64)
+    return np.array([x, y, yaw_of(pose)])
+
+
 def compose(a: ArrayLike, b: ArrayLike) -> FloatArray:
     """The pose ``(7,)`` of frame b, given in frame a, seen in the frame in which a is given."""
     a, b = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)

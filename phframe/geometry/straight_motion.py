@@ -8,7 +8,7 @@ from phframe.core import FloatArray
 
 
 def distances_on_way_in(points: FloatArray, lower: FloatArray, upper: FloatArray, length: float) -> FloatArray:
-    """Distances ``(m, n)`` of points from the regions that parts of the arm cover on a straight way in of a length (m).
+    """Distances ``(m, n)`` of points from the regions that parts of the arm sweep on a straight way in of a length (m).
 
     A region is bounded by the box around the part, drawn back along the way: parts are convex and narrow ahead, so the
     box is a close and safe bound.

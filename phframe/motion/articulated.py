@@ -19,12 +19,8 @@ from phframe.core import (
     Scene,
     State,
     Unreachable,
-    compose,
-    inverse,
-    planar_pose,
-    yaw_of,
 )
-from phframe.motion.budget import Budget
+from phframe.motion.budget import SearchBudget
 from phframe.motion.cartesian_following import CartesianFollower
 from phframe.motion.cartesian_path import OUTSIDE, CartesianPathFollower, JointPath, pose_text
 from phframe.motion.cartesian_waypoints import waypoints
@@ -107,7 +103,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         self, path: GripperPath, state: State, *, attempts: int, seconds: float, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
         """Plan a joint trajectory: the same inputs give the same bits, or ``timed_out`` where the time was up before."""
-        budget = Budget(self.options.search, seconds)
+        budget = SearchBudget(self.options.search, seconds)
         begin, opening = self._where(state)
         if begin is None:
             where = "" if state.arm is None else f", at {pose_text(state.arm.gripper)}"
@@ -123,11 +119,11 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
             return self.arm.home, self.arm.shape.min_opening
         joints = state.arm.joints
         if joints is None:
-            joints = self.arm.inverse(self._in_base(state.arm.gripper), self.arm.home)
+            joints = self.arm.inverse(self.arm.fingertip_pose(state.arm.gripper, self.base_pose), self.arm.home)
         return joints, state.arm.commanded_opening
 
     def _planned(
-        self, problem: _Problem, attempts: int, budget: Budget, rng: np.random.Generator
+        self, problem: _Problem, attempts: int, budget: SearchBudget, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
         """From where the gripper is, if the path begins there and that can be; else by an approach from outside."""
         found = self._onwards(problem) if self._begins_here(problem) else None
@@ -138,18 +134,18 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
     def _onwards(self, problem: _Problem) -> JointTrajectory | Unreachable:
         """The path from where the arm is; what it touches there, it may touch until it has got away."""
         begin = problem.begin
-        found = self._paths(problem, start=begin).onwards(begin, self._seen(begin))
+        found = self._paths(problem, start=begin).onwards(begin, self.arm.gripper_pose(begin, self.base_pose))
         if isinstance(found, Unreachable):
             return found
         return self._time_parametrisation.trajectory([*leg_segments(found, problem.path, problem.opening)])
 
     def _begins_here(self, problem: _Problem) -> bool:
         """Whether a path begins where the gripper is."""
-        x, y, yaw = (self._seen(problem.begin) - problem.path.poses[0]).tolist()
+        x, y, yaw = (self.arm.gripper_pose(problem.begin, self.base_pose) - problem.path.poses[0]).tolist()
         return math.hypot(x, y) < SAME_POSITION and abs(math.remainder(yaw, math.tau)) < SAME_YAW
 
     def _approached(
-        self, problem: _Problem, attempts: int, budget: Budget, rng: np.random.Generator
+        self, problem: _Problem, attempts: int, budget: SearchBudget, rng: np.random.Generator
     ) -> JointTrajectory | Unreachable:
         """The joint path to where one that follows the gripper path begins, and that one."""
         tolerance, paths = self.options.yaw_tolerance, self._paths(problem, start=None)
@@ -169,7 +165,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         return self._time_parametrisation.trajectory(segments)
 
     def _approach(
-        self, problem: _Problem, found: JointPath, budget: Budget, rng: np.random.Generator
+        self, problem: _Problem, found: JointPath, budget: SearchBudget, rng: np.random.Generator
     ) -> FloatArray | Unreachable:
         """Corners ``(k, dof)`` of a joint path to where another begins, collision-free but for what touches at its start."""
         begin, end = problem.begin, found.joints[0]
@@ -218,12 +214,3 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         ik = DifferentialIK(self._kinematics, self._objective, context.obstacles(self.scene))
         checker = self._collisions.checker(context)
         return CartesianFollower(ik, checker, self.base_pose, self.arm.shape.height, self._names)
-
-    def _seen(self, q: FloatArray) -> FloatArray:
-        """The gripper's pose seen from above ``(3,)`` at joint values ``(dof,)``."""
-        pose = compose(self.base_pose.pose, self.arm.forward(q))
-        return np.array([pose[0], pose[1], yaw_of(pose)])
-
-    def _in_base(self, gripper: FloatArray) -> FloatArray:
-        x, y, yaw = gripper.tolist()
-        return compose(inverse(self.base_pose.pose), planar_pose(x, y, self.arm.shape.height, yaw))

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 
 
-class Budget:
+class SearchBudget:
     """Iterations of a search and the time allowed for it all; made for one path, spent and dropped.
 
     Once anyone was stopped by the clock, ``timed_out`` stays True: what was found then depends on how busy the machine

@@ -10,7 +10,7 @@ from itertools import cycle, islice
 import numpy as np
 
 from phframe.core import FloatArray, Unreachable
-from phframe.motion.budget import Budget
+from phframe.motion.budget import SearchBudget
 from phframe.motion.cartesian_path import CartesianPathFollower, JointPath, pose_text
 from phframe.motion.null_space_objective import NullSpaceObjective
 from phframe.motion.pinocchio_ import Kinematics
@@ -67,7 +67,7 @@ class ConfigurationSearch:
         kinematics: Kinematics,
         objective: NullSpaceObjective,
         yaw_tolerance: float,
-        budget: Budget,
+        budget: SearchBudget,
     ) -> None:
         self._paths, self._kinematics, self._objective, self._budget = paths, kinematics, objective, budget
         self._yaws = _steps_to(yaw_tolerance)

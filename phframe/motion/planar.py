@@ -22,11 +22,7 @@ from phframe.core import (
     PhaseRule,
     State,
     Unreachable,
-    compose,
-    inverse,
-    planar_pose,
     starting_from,
-    yaw_of,
 )
 from phframe.motion.trapezoidal_velocity import TrapezoidalProfile, trapezoidal_profile
 
@@ -85,20 +81,18 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
     def _where(self, state: State) -> tuple[FloatArray, float]:
         """Fingertip pose ``(3,)`` in the shelf frame and commanded opening (m)."""
         if state.arm is None:
-            return self._seen_from_above(self.arm.home), self.arm.shape.min_opening
-        seen = state.arm.gripper if state.arm.joints is None else self._seen_from_above(state.arm.joints)
+            return self.arm.gripper_pose(self.arm.home, self.base_pose), self.arm.shape.min_opening
+        own = state.arm.joints
+        seen = state.arm.gripper if own is None else self.arm.gripper_pose(own, self.base_pose)
         return seen, state.arm.commanded_opening
-
-    def _seen_from_above(self, joints: FloatArray) -> FloatArray:
-        pose = compose(self.base_pose.pose, self.arm.forward(joints))
-        return np.array([pose[0], pose[1], yaw_of(pose)])
 
     def _joints_at(self, path: GripperPath) -> FloatArray | Unreachable:
         """Joint values ``(m, 3)`` at the corners; limits are the same for x, y and yaw all along, so corners suffice."""
-        base, found = inverse(self.base_pose.pose), []
-        for corner, (x, y, yaw) in enumerate(path.poses.tolist()):
-            q = self.arm.inverse(compose(base, planar_pose(x, y, self.arm.shape.height, yaw)))
+        found: list[FloatArray] = []
+        for corner, pose in enumerate(path.poses):
+            q = self.arm.inverse(self.arm.fingertip_pose(pose, self.base_pose))
             if q is None:
+                x, y, yaw = pose.tolist()
                 why = f"x {x:.3f} m, y {y:.3f} m, yaw {yaw:.2f} rad is beyond the joints' limits"
                 return Unreachable(_length(path.poses[: max(corner, 1)]), why, max(corner - 1, 0))
             found.append(q)

@@ -15,8 +15,6 @@ from phframe.core import (
     JointTrajectory,
     Phase,
     PhaseRule,
-    compose,
-    yaw_of,
 )
 from phframe.motion.options import ArticulatedOptions
 from phframe.motion.segments import Segment
@@ -76,8 +74,7 @@ class TimeParametrisation:
         return time_optimal(path, self._speeds(segment.rule), self._accelerations(segment.rule))
 
     def _seen_from_above(self, joints: FloatArray) -> FloatArray:
-        poses = [compose(self._base_pose.pose, self._arm.forward(q)) for q in joints]
-        seen = np.array([[pose[0], pose[1], yaw_of(pose)] for pose in poses])
+        seen = np.array([self._arm.gripper_pose(q, self._base_pose) for q in joints])
         seen[:, 2] = np.unwrap(seen[:, 2])
         return seen
 

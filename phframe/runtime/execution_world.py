@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from phframe.core import Action, Motion, State, Trajectory, Unreachable, Watch, compose, inverse, planar_pose
+from phframe.core import Action, Motion, State, Trajectory, Unreachable, Watch
 from phframe.runtime.world import World
 
 
@@ -32,13 +32,13 @@ class ExecutionWorld(World):
 
     def _refuse_pose(self, action: Action) -> Unreachable | None:
         """Where the arm's joints cannot take the fingertip, if anywhere."""
-        base, way = inverse(self.base_pose.pose), 0.0
-        seed = self.arm.home
-        for leg, (x, y, yaw) in enumerate(action.path.poses):
+        way, seed = 0.0, self.arm.home
+        for leg, pose in enumerate(action.path.poses):
             if leg:
                 way += float(np.hypot(*(action.path.poses[leg, :2] - action.path.poses[leg - 1, :2])))
-            joints = self.arm.inverse(compose(base, planar_pose(x, y, self.arm.shape.height, yaw)), seed)
+            joints = self.arm.inverse(self.arm.fingertip_pose(pose, self.base_pose), seed)
             if joints is None:
+                x, y, yaw = pose.tolist()
                 where = f"({x:.3f}, {y:.3f}) m, yaw {np.degrees(yaw):.0f} degrees"
                 return Unreachable(way, f"arm {self.spec.arm!r} does not reach {where}", leg)
             seed = joints

@@ -15,7 +15,6 @@ from phframe.core import (
     Action,
     ArmModel,
     Contacts,
-    FloatArray,
     GripperPath,
     IncompatibleError,
     JointTrajectory,
@@ -32,10 +31,9 @@ from phframe.core import (
     Trajectory,
     Unreachable,
     Watch,
-    compose,
+    motion_planner_of,
     starting_from,
     time_path,
-    yaw_of,
 )
 from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.registry import Kind, create, load
@@ -46,7 +44,7 @@ RETREAT_SPEED = 0.25
 """Of the fingertip that draws back after a stall (m/s)."""
 LEAST_SERVED = 0.7
 """Fraction of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
-MOTION_ATTEMPTS, MOTION_SECONDS = 10, 30.0
+MOTION_ATTEMPTS, MOTION_SECONDS = 10, 300.0
 """How often a motion planner may try anew, and for how long (s)."""
 
 
@@ -95,10 +93,10 @@ class World:
         options = backend.options_type.parse(spec.backend_options, f"backend {spec.backend}")
         self._motion_planner = None
         if backend.executes is JointTrajectory:
-            self._motion_planner = self.arm.motion_planner(spec.scene, self.base_pose)
+            self._motion_planner = motion_planner_of(self.arm, spec.scene, self.base_pose)
         self.motion_planning_time = 0.0
         self.physics: Physics[Any] = backend(spec.scene, self.arm, self.base_pose, options)
-        self.home = _seen_from_above(compose(self.base_pose.pose, self.arm.forward(self.arm.home)))
+        self.home = self.arm.gripper_pose(self.arm.home, self.base_pose)
         self._refuse_misfit()
 
     def _refuse_misfit(self) -> None:
@@ -215,7 +213,3 @@ class World:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
-
-
-def _seen_from_above(pose: FloatArray) -> FloatArray:
-    return np.array([pose[0], pose[1], yaw_of(pose)])

@@ -98,7 +98,7 @@ class PhysicsUnderTest:
         factory: Makes a new backend.
         arm: The arm.
         tolerances: How exact the backend has to be.
-        lift: Finds the joints, for a backend that executes those.
+        plan_trajectory: Plans joint trajectories, for a backend that executes those.
         name: Of the backend, for messages.
     """
 

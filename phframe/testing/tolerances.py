@@ -17,7 +17,7 @@ class PhysicsTolerances:
         tracking: How far the fingertip may be from its trajectory where nothing is in the way (m).
         stopping: Relative error of an object's stopping distance.
         stopping_slack: What a stopping distance may differ besides (m): softness of the contact it starts from.
-        force: By which share the largest force may exceed the limit.
+        force: By which fraction the largest force may exceed the limit.
         load_speed: How fast a load is pushed to see whether it stalls the arm (m/s); slowly where the arm has a mass of its
             own, since what its momentum does to what it hits is not what it presses with.
         preload: Force on a stalled arm that is told to stand still (N).

@@ -26,8 +26,8 @@ def check_description(description: ArmDescription, robot: Robot) -> None:
         if robot.joint(name).kind != "prismatic":
             raise ArmError(f"the finger joint {name!r} turns; fingers that slide are needed")
     _check_values("home", description.home, joints)
-    for posture in description.seed_configurations:
-        _check_values("a posture", posture, joints)
+    for configuration in description.seed_configurations:
+        _check_values("a seed configuration", configuration, joints)
     if strange := sorted({link for pair in description.allowed_collisions for link in pair} - set(robot.links)):
         raise ArmError(
             f"'overlapping' or the SRDF names the link {strange[0]!r}, which the URDF has not; "

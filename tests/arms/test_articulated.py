@@ -135,8 +135,8 @@ def test_a_shelf_that_stands_askew_is_where_it_is_described(tmp_path: Path) -> N
         ({"urdf": None}, "urdf must name"),
         ({"joints": [*DESCRIPTION["joints"][:5], "tilt"]}, "joint 'tilt' is named twice"),
         ({"fingers": ["left_slide", "left_slide"]}, "joint 'left_slide' is named twice"),
-        ({"postures": [[0.0, 1.0]]}, "a posture has 2 values for 6 joints"),
-        ({"postures": [[9.0, 0.0, 0.0, 0.0, 0.0, 0.0]]}, "at a posture lift is 9, beyond its limits"),
+        ({"postures": [[0.0, 1.0]]}, "a seed configuration has 2 values for 6 joints"),
+        ({"postures": [[9.0, 0.0, 0.0, 0.0, 0.0, 0.0]]}, "at a seed configuration lift is 9, beyond its limits"),
         ({"postures": [[float("nan")] * 6]}, "arm.yaml: postures.0.0: .* finite"),
         (
             {"overlapping": [["palm", "thumb"]]},

@@ -92,7 +92,7 @@ def test_no_joint_gives_more_than_its_effort(effort: float) -> None:
     drive(world, np.array([0.3, -0.4, 0.0]), 4.0)
     *_, touching, force = world.engine.advance()
     assert touching
-    assert {contact[:3] for contact in world.engine.contacts()} == {("link", "south wall", True)}
+    assert {pair[:3] for pair, _ in world.engine.contacts()} == {("link", "south wall", True)}
     assert world.engine.arm().efforts[1] == pytest.approx(effort, rel=1e-3)
     assert force == pytest.approx(effort, rel=0.1)
 
@@ -168,7 +168,7 @@ def test_an_edge_pushes_towards_the_axis(angle: float) -> None:
     state = replace(scene.initial_state(), arm=ArmState(np.array([0.2, MIDDLE, 0.0]), 0.0))
     world = world_of(*scene.objects, state=state)
     world.engine.advance()
-    pushes = [contact.push for contact in world.engine.contacts() if contact.finger and contact.row is not None]
+    pushes = [push for pair, push in world.engine.contacts() if pair.finger and pair.row is not None]
     assert pushes
     for push in pushes:
         assert math.degrees(math.atan2(push[1], push[0])) == pytest.approx(angle, abs=3.0)

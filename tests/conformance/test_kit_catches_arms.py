@@ -162,11 +162,11 @@ class OtherNames(Rewritten):
 
 
 class OtherAxis(Rewritten):
-    old, new = '<axis xyz="1 0 0" />', '<axis xyz="0 0 1" />'
+    old, new = '<axis xyz="1.0 0.0 0.0" />', '<axis xyz="0.0 0.0 1.0" />'
 
 
 class FingersUpwards(Rewritten):
-    old, new = '<axis xyz="0 -1 0" />', '<axis xyz="0 0 1" />'
+    old, new = '<axis xyz="0.0 -1.0 0.0" />', '<axis xyz="0 0 1" />'
 
 
 class Weightless(Rewritten):

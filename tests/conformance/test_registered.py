@@ -17,6 +17,7 @@ from phframe.core import (
     Scene,
     SceneObject,
     Shelf,
+    motion_planner_of,
 )
 from phframe.registry import Kind, catalogue, create, load
 from phframe.testing import (
@@ -101,7 +102,7 @@ def physics(backend: str, arm: str) -> PhysicsUnderTest:
     tolerances = PLANAR if loaded.executes is GripperTrajectory else in_space
     options, model = loaded.options_type(), create(Kind.ARM, arm)
     if loaded.executes is JointTrajectory:  # says in one line which arms can, where this one cannot
-        model.motion_planner(SHELF_SCENE, model.default_base_pose(SHELF_SCENE.shelf))
+        motion_planner_of(model, SHELF_SCENE, model.default_base_pose(SHELF_SCENE.shelf))
     return PhysicsUnderTest(
         lambda scene, carrier, base_pose: loaded(scene, carrier, base_pose, options),
         model,

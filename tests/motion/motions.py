@@ -28,6 +28,7 @@ from phframe.core import (
     State,
     Unreachable,
     compose,
+    motion_planner_of,
     tilt_of,
     yaw_of,
 )
@@ -79,7 +80,7 @@ def _made(name: str, side: str) -> Any:
 
 
 def planner(arm: ArmModel[Any], scene: Scene = EMPTY, base_pose: BasePose | None = None) -> MotionPlanner[Any]:
-    return arm.motion_planner(scene, arm.default_base_pose(scene.shelf) if base_pose is None else base_pose)
+    return motion_planner_of(arm, scene, arm.default_base_pose(scene.shelf) if base_pose is None else base_pose)
 
 
 def lifted(

@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 
 import phframe
 from phframe.core import ArmError, FloatArray, NotInstalledError, UnknownNameError
-from phframe.motion.budget import Budget
+from phframe.motion.budget import SearchBudget
 from phframe.motion.collision_free_path import DEFAULT, PLANNERS, collision_free_path
 from phframe.motion.edges import Edges, bisection
 from phframe.motion.path_shortcutting import shortened
@@ -46,7 +46,7 @@ def solve(planner: str = DEFAULT, *, seed: int = 0, dof: int = 3, **changes: Any
     given: dict[str, Any] = {
         "start": start, "goals": goal[None], "lower": lower, "upper": upper, "valid": walls(*gaps), "planner": planner,
         "resolution": RESOLUTION, "rng": np.random.default_rng(seed),
-        "stop": Budget(2 * changes.pop("iterations", 500 if "star" in planner else 3000), math.inf).search(),
+        "stop": SearchBudget(2 * changes.pop("iterations", 500 if "star" in planner else 3000), math.inf).search(),
     }  # fmt: skip
     return collision_free_path(**{**given, **changes})
 
@@ -133,7 +133,7 @@ def test_time_ends_it_too_and_the_budget_says_so(planner: str, monkeypatch: pyte
     """By a clock that goes on by a second whenever someone looks at it."""
     ticks = iter(range(10**9))
     monkeypatch.setattr("phframe.motion.budget.time.monotonic", lambda: float(next(ticks)))
-    budget = Budget(10**9, 100.0)
+    budget = SearchBudget(10**9, 100.0)
     assert solve(planner, valid=walls((5.0, 6.0)), stop=budget.search()) is None
     assert budget.timed_out
     assert 100 <= next(ticks) < 200

@@ -14,7 +14,7 @@ pytest.importorskip("ompl")
 pytest.importorskip("toppra")
 
 from phframe.core import FloatArray, GripperPath, JointTrajectory, MotionPlanner, State, Unreachable
-from phframe.motion.budget import Budget
+from phframe.motion.budget import SearchBudget
 from phframe.motion.edges import Edges
 from tests.motion.motions import (
     CROWD,
@@ -128,7 +128,7 @@ def test_the_search_was_needed(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_each_search_has_half_of_the_iterations_that_are_left() -> None:
-    budget = Budget(10, math.inf)
+    budget = SearchBudget(10, math.inf)
     counts = []
     for _ in range(4):
         stop = budget.search()
@@ -142,7 +142,7 @@ def test_each_search_has_half_of_the_iterations_that_are_left() -> None:
 def test_a_clock_that_stopped_anyone_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0.0]
     monkeypatch.setattr("phframe.motion.budget.time.monotonic", lambda: now[0])
-    budget = Budget(100, 10.0)
+    budget = SearchBudget(100, 10.0)
     stop = budget.search()
     assert not stop()
     now[0] = 10.1

@@ -59,7 +59,7 @@ def retreat(arm: Any, begin: FloatArray) -> GripperPath:
 
 @pytest.mark.parametrize("name", ARMS)
 @pytest.mark.parametrize("x", [0.15, 0.4])
-def test_after_a_stall_it_draws_back_in_the_same_posture(name: str, x: float) -> None:
+def test_after_a_stall_it_draws_back_in_the_same_configuration(name: str, x: float) -> None:
     arm = ARMS[name]()
     ours = planner(arm)
     q = halfway(ours, insertion(arm, 0.45, MIDDLE + 0.08), x)

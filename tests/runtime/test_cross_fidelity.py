@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
 import phframe
-from phframe.arms.planar import PlanarArm, PlanarArmOptions
-from phframe.core import ArmModel, IncompatibleError, JointTrajectory, OptionError, RunSpec, Scene, Status, Step
+from phframe.arms.planar import PlanarArm
+from phframe.core import IncompatibleError, JointTrajectory, OptionError, RunSpec, Scene, Status, Step
 from phframe.runtime.observer import Frames, MountedArm, Observer
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.summary import summarize
@@ -78,13 +78,14 @@ def test_prediction_errors_are_those_of_what_moved() -> None:
     assert episode.prediction_errors.tolist() == pytest.approx(expected)
 
 
-def test_an_arm_without_a_motion_planner_is_refused_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(PlanarArm, "motion_planner", ArmModel.motion_planner)
-    with pytest.raises(IncompatibleError, match="PlanarArm has no motion planner") as found:
-        World(WorldSpec(find_scene(SCENE), backend="mujoco"))
+def test_an_arm_without_a_motion_planner_is_refused_in_one_line() -> None:
+    class Immovable(PlanarArm):
+        motion_planner: Any = None
+
+    with pytest.raises(IncompatibleError, match="Immovable has no motion planner") as found:
+        World(WorldSpec(find_scene(SCENE), backend="mujoco", arm=Immovable))
     assert "\n" not in str(found.value)
-    World(WorldSpec(find_scene(SCENE))).close()
-    assert PlanarArm(PlanarArmOptions()).joints
+    World(WorldSpec(find_scene(SCENE), arm=Immovable)).close()
 
 
 def test_options_of_what_is_not_there_are_refused() -> None:

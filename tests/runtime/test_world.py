@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -138,12 +139,14 @@ def test_what_cannot_be_built_is_refused(spec: WorldSpec, error: type[Exception]
 def test_a_backend_that_drives_joints_needs_a_motion_planner(monkeypatch: pytest.MonkeyPatch) -> None:
     from phframe.arms.planar import PlanarArm
     from phframe.backends.pymunk_.physics import PymunkPhysics
-    from phframe.core import ArmModel, JointTrajectory
+    from phframe.core import JointTrajectory
+
+    class Immovable(PlanarArm):
+        motion_planner: Any = None
 
     monkeypatch.setattr(PymunkPhysics, "executes", JointTrajectory)
-    monkeypatch.setattr(PlanarArm, "motion_planner", ArmModel.motion_planner)
     with pytest.raises(IncompatibleError, match="no motion planner"):
-        PlanningWorld(WorldSpec(BASIC))
+        PlanningWorld(WorldSpec(BASIC, arm=Immovable))
 
 
 SERVING = """

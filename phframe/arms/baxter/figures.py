@@ -16,7 +16,7 @@ RIGHT_ANGLE = pi / 2.0
 
 
 @dataclass(frozen=True, slots=True)
-class Segment:
+class JointFigures:
     """A joint of an arm and the link that it carries; all turn about their own z.
 
     Attributes:
@@ -67,7 +67,7 @@ SHOULDER_YAW = 0.7854
 """Of the left arm; the right arm's is negative."""
 
 SEGMENTS = (
-    Segment(
+    JointFigures(
         "s0",
         "upper_shoulder",
         (0.055695, 0.0, 0.011038),
@@ -88,7 +88,7 @@ SEGMENTS = (
             _rail("right spring", -0.1265),
         ),
     ),
-    Segment(
+    JointFigures(
         "s1",
         "lower_shoulder",
         (0.069, 0.0, 0.27035),
@@ -104,7 +104,7 @@ SEGMENTS = (
         ),
         collision_geometry=(_along_z("barrel", 0.073, -0.0975, 0.0975), _along_x("tail", 0.0762, 0.0, 0.121)),
     ),
-    Segment(
+    JointFigures(
         "e0",
         "upper_elbow",
         (0.102, 0.0, 0.0),
@@ -124,7 +124,7 @@ SEGMENTS = (
             _box("fork's nose", (0.1, 0.082, 0.126), (0.083, 0.0, 0.263)),
         ),
     ),
-    Segment(
+    JointFigures(
         "e1",
         "lower_elbow",
         (0.069, 0.0, 0.26242),
@@ -140,7 +140,7 @@ SEGMENTS = (
         ),
         collision_geometry=(_along_z("barrel", 0.069, -0.0945, 0.0945), _along_x("tail", 0.070, 0.0, 0.092)),
     ),
-    Segment(
+    JointFigures(
         "w0",
         "upper_forearm",
         (0.10359, 0.0, 0.0),
@@ -158,7 +158,7 @@ SEGMENTS = (
             _along_z("tube", 0.0742, -0.018, 0.215),
         ),  # the fork beyond it lies inside the next link's barrel
     ),
-    Segment(
+    JointFigures(
         "w1",
         "lower_forearm",
         (0.01, 0.0, 0.2707),
@@ -174,7 +174,7 @@ SEGMENTS = (
         ),
         collision_geometry=(_along_z("barrel", 0.059, -0.0856, 0.0824), _along_x("tube", 0.066, 0.055, 0.168)),
     ),
-    Segment(
+    JointFigures(
         "w2",
         "wrist",
         (0.115975, 0.0, 0.0),
@@ -272,7 +272,7 @@ IDLE = (1.0, -0.55, 0.0, 0.75, 0.0, 1.26, 0.0)
 
 HOME = (1.241881, 0.32302, -1.102181, 2.481017, 0.582613, -0.535103, 1.547004)
 """Gripper level, 3 cm before the mouth, 0.1 m left of its middle: from here all of the shelf can be reached without the
-arm changing its posture, straight in at yaw 0 and over 0.2 m to either side of the middle down to 0.52 m."""
+arm changing its configuration, straight in at yaw 0 and over 0.2 m to either side of the middle down to 0.52 m."""
 MOUTH_AT: Vector = (0.675, 0.35, 0.15)
 """Middle of the shelf's mouth at the board, in the base: where straight insertions to 0.5 m and sweeps can all be
 followed; 2.5 cm nearer the start is lost, 2.5 cm farther the deep corners are."""

@@ -7,6 +7,7 @@ with it. This list is what is stable; whatever else these modules hold is not.
 
 from phframe.backends.articulated.engine import (
     ArmReading,
+    ContactPair,
     EngineContact,
     JointEngine,
     ObjectReading,
@@ -24,6 +25,7 @@ __all__ = [
     "ArticulatedSnapshot",
     "ArticulatedWorld",
     "Coefficient",
+    "ContactPair",
     "EngineContact",
     "JointEngine",
     "JointEngineOptions",

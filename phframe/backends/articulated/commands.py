@@ -11,7 +11,7 @@ import numpy as np
 
 from phframe.backends.articulated.world import ArticulatedWorld
 from phframe.backends.contract import START_ANGLE, START_POSITION
-from phframe.core import ArmModel, FloatArray, InputError, JointTrajectory, Phase, Trajectory, compose, yaw_of
+from phframe.core import ArmModel, FloatArray, InputError, JointTrajectory, Phase, Trajectory
 
 SPEED_SLACK = 1.02
 """Joints may be told to be this much faster than they are made for: samples round."""
@@ -68,9 +68,8 @@ def accepted(world: ArticulatedWorld, trajectory: Trajectory) -> JointTrajectory
 
 def _refuse_jump(world: ArticulatedWorld, trajectory: JointTrajectory) -> None:
     arm = world.engine.arm()
-    x, y, yaw = arm.gripper
-    begin = compose(world.base_pose.pose, world.arm.forward(trajectory.positions[0]))
-    distance, turn = math.hypot(begin[0] - x, begin[1] - y), abs(_wrapped(yaw_of(begin) - yaw))
+    x, y, yaw = (world.arm.gripper_pose(trajectory.positions[0], world.base_pose) - arm.gripper).tolist()
+    distance, turn = math.hypot(x, y), abs(_wrapped(yaw))
     joints = float(np.abs(trajectory.positions[0] - arm.joints).max())
     if distance > START_POSITION or turn > START_ANGLE or joints > START_ANGLE:
         raise InputError(

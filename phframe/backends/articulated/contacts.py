@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from phframe.backends.articulated.engine import EngineContact, Vector
+from phframe.backends.articulated.engine import ContactPair, EngineContact, Vector
 from phframe.backends.articulated.world import ArticulatedWorld
 from phframe.backends.contract import Touch
 
@@ -29,17 +29,18 @@ class TouchLog:
     def __init__(self, world: ArticulatedWorld) -> None:
         self._world = world
         self.found: list[Touch] = []
-        self._known: set[tuple[str, str, bool]] = set()
+        self._known: set[ContactPair] = set()
         self._count, self._read_at, self._told = 0.0, 0.0, 0
         self._last_grip = self._held_at = 0.0
 
     def look(self, time: float, count: float) -> None:
         """Write down what the arm touches at a time (s), which has so many contacts."""
         read = count > self._count or (count and time - self._read_at >= REREAD)
-        grip = time - self._held_at >= REREAD and (self._world.held is not None or count)
+        world = self._world
+        grip = time - self._held_at >= REREAD and (world.held is not None or (count and world.squeeze > SQUEEZE))
         self._count = count
         if read or grip:
-            contacts = list(self._world.engine.contacts())
+            contacts = list(world.engine.contacts())
             if read:
                 self._read(time, contacts)
             if grip:
@@ -62,16 +63,15 @@ class TouchLog:
     def _read(self, time: float, contacts: Sequence[EngineContact]) -> None:
         """Note what a part of the arm touches for the first time in this phase."""
         self._read_at, known = time, self._known
-        for contact in contacts:
-            touch = contact[:3]
-            if touch not in known:
-                known.add(touch)
-                self.found.append((time, *touch))
+        for pair, _ in contacts:
+            if pair not in known:
+                known.add(pair)
+                self.found.append((time, pair.part, pair.body, pair.wall))
 
     def _hold(self, time: float, gripped: int | None) -> None:
         """An object is held from when it is squeezed until it has been out of the fingers' grip for a while."""
         world, self._held_at = self._world, time
-        if gripped is not None and (world.held is not None or world.squeeze > SQUEEZE):
+        if gripped is not None:
             self._last_grip = time
             if world.held != gripped:
                 world.hold(gripped)
@@ -82,7 +82,7 @@ class TouchLog:
 def _gripped(contacts: Sequence[EngineContact]) -> int | None:
     """Row of the object that both fingers press from opposite sides, if there is one."""
     pushes: dict[int, dict[int, Vector]] = {}
-    for _, _, _, row, finger, (x, y, z) in contacts:
+    for (_, _, _, row, finger), (x, y, z) in contacts:
         if row is not None and finger:
             fingers = pushes.setdefault(row, {})
             fx, fy, fz = fingers.get(finger, (0.0, 0.0, 0.0))

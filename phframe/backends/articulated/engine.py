@@ -71,8 +71,8 @@ class ObjectReading(NamedTuple):
     velocities: FloatArray
 
 
-class EngineContact(NamedTuple):
-    """One of the arm's contacts with something else.
+class ContactPair(NamedTuple):
+    """A part of the arm and what it touches. Engines ask for the same ones again and again: make each once.
 
     Attributes:
         part: Of the arm: as its outline is called, or else its link.
@@ -80,7 +80,6 @@ class EngineContact(NamedTuple):
         wall: Whether that is a wall or the ceiling.
         row: Of the object, None for others.
         finger: Which finger the part is: +1 left, -1 right, 0 none.
-        push: Direction, of any length, in which a finger pushes an object; it does not matter for other pairs.
     """
 
     part: str
@@ -88,7 +87,10 @@ class EngineContact(NamedTuple):
     wall: bool
     row: int | None
     finger: int
-    push: Vector
+
+
+EngineContact = tuple[ContactPair, Vector]
+"""One of the arm's contacts: who touches what, and the direction, of any length, in which the arm pushes it."""
 
 
 class JointEngine(Protocol):

@@ -26,10 +26,7 @@ from phframe.core import (
     SimulationDivergedError,
     State,
     Value,
-    compose,
     condition_of,
-    inverse,
-    planar_pose,
     refuse_foreign,
 )
 
@@ -212,9 +209,8 @@ class ArticulatedWorld:
         Raises:
             ArmError: If there are none.
         """
-        x, y, yaw = gripper.tolist()
-        wanted = planar_pose(x, y, self.arm.shape.height, yaw)
-        found = self.arm.inverse(compose(inverse(self.base_pose.pose), wanted), seed)
+        found = self.arm.inverse(self.arm.fingertip_pose(gripper, self.base_pose), seed)
         if found is None:
+            x, y, yaw = gripper.tolist()
             raise ArmError(f"the arm cannot have its fingertip at x {x:.3f} m, y {y:.3f} m, yaw {yaw:.2f} rad")
         return found

@@ -11,16 +11,23 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from phframe.backends.articulated import ArmReading, EngineContact, ObjectReading, Placement, Progress, substeps
+from phframe.backends.articulated import (
+    ArmReading,
+    ContactPair,
+    EngineContact,
+    ObjectReading,
+    Placement,
+    Progress,
+    substeps,
+)
 from phframe.backends.contract import GRAVITY
 from phframe.backends.mujoco_.model import build_model
 from phframe.backends.mujoco_.options import MujocoOptions
 from phframe.backends.mujoco_.shelf import BOARD, ENDING_BOARD, meets
-from phframe.core import ArmModel, BasePose, FloatArray, Scene, planar_pose, yaw_of
+from phframe.core import ArmModel, BasePose, FloatArray, Scene, planar_pose, seen_from_above
 
 AWAY = 10.0
 """What has spilled is put this far before the mouth (m), where it meets nothing."""
-STILL = (0.0, 0.0, 0.0)
 EVERYTHING = mujoco.mjtState.mjSTATE_INTEGRATION
 """All that the engine's next step depends on: speeds, commands and warm start included."""
 
@@ -51,6 +58,7 @@ class MujocoEngine:
         self.period = self._substeps * options.step
         self.delay = options.step  # a step leaves poses one step behind the joints
         self._ranges = model.mj.actuator_forcerange[: model.dof]
+        self._pairs: dict[tuple[int, int], ContactPair] = {}
         self._warnings: list[str] = []
         self._step = self._stepping()
         # The engine's own memory.
@@ -72,12 +80,11 @@ class MujocoEngine:
         """The arm as it is now."""
         model, data = self.model, self.data
         mujoco.mj_kinematics(model.mj, data)  # a step leaves poses one step behind the joints
-        pose = np.concatenate([data.xpos[model.tip], data.xquat[model.tip]])
         return ArmReading(
             joints=data.qpos[model.joints],
             fingers=data.qpos[model.fingers],
             commanded_fingers=data.ctrl[model.dof :].copy(),
-            gripper=np.array([pose[0], pose[1], yaw_of(pose)]),
+            gripper=seen_from_above(np.concatenate([data.xpos[model.tip], data.xquat[model.tip]])),
             efforts=np.abs(data.actuator_force[: model.dof]),
             inertias=model.mj.dof_M0[model.speeds],
         )
@@ -88,16 +95,20 @@ class MujocoEngine:
 
     def contacts(self) -> Iterator[EngineContact]:
         """The arm's contacts with anything else, told by the bodies that geoms belong to."""
-        model, contact = self.model, self.data.contact
-        is_arm, names, frames = model.is_arm, model.names, contact.frame
+        is_arm, contact, pairs = self.model.is_arm, self.data.contact, self._pairs
+        frames = contact.frame
         for number, (one, other) in enumerate(contact.geom.tolist()):
             if is_arm[one] is not is_arm[other]:
-                part, body = (one, other) if is_arm[one] else (other, one)
-                finger, row, push = model.sides[part], model.rows[body], STILL
-                if finger and row is not None:
-                    x, y, z = frames[number, :3].tolist()
-                    push = (x, y, z) if is_arm[one] else (-x, -y, -z)
-                yield EngineContact(names[part], names[body], model.is_wall[body], row, finger, push)
+                geoms = (one, other) if is_arm[one] else (other, one)
+                pair = pairs.get(geoms) or pairs.setdefault(geoms, self._pair(*geoms))
+                x, y, z = frames[number, :3].tolist()
+                yield pair, (x, y, z) if is_arm[one] else (-x, -y, -z)
+
+    def _pair(self, part: int, body: int) -> ContactPair:
+        model = self.model
+        return ContactPair(
+            model.names[part], model.names[body], model.is_wall[body], model.rows[body], model.sides[part]
+        )
 
     def trouble(self) -> str | None:
         """What MuJoCo has warned of, or that the arm is nowhere."""

@@ -10,7 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from phframe.backends.articulated import ArmReading, EngineContact, ObjectReading, Placement, Progress, substeps
+from phframe.backends.articulated import (
+    ArmReading,
+    ContactPair,
+    EngineContact,
+    ObjectReading,
+    Placement,
+    Progress,
+    substeps,
+)
 from phframe.backends.contract import GRAVITY
 from phframe.backends.pybullet_.arm import LoadedArm, inertias, load_arm, place_joints, sags, weight
 from phframe.backends.pybullet_.options import PybulletOptions
@@ -18,7 +26,7 @@ from phframe.backends.pybullet_.output_capture import bullet
 from phframe.backends.pybullet_.shelf import Bodies, build_shelf, set_held
 from phframe.backends.pybullet_.sleeping import LOOK, Rest
 from phframe.backends.pybullet_.urdf import prepared_urdf
-from phframe.core import ArmModel, BasePose, FloatArray, Scene, yaw_of
+from phframe.core import ArmModel, BasePose, FloatArray, Scene, seen_from_above
 
 NEAR = 1e-5
 """Bodies this close (m) touch, whether or not they press; Bullet tells of what is farther, too."""
@@ -75,6 +83,7 @@ class PybulletEngine:
         self._complied = 0
         self._steps = 0
         self._points: list[Any] = []
+        self._pairs: dict[tuple[int, int], ContactPair] = {}
         self._seen: ObjectReading | None = None
 
     def place(self, placement: Placement) -> None:
@@ -91,7 +100,7 @@ class PybulletEngine:
         place_joints(client, self.loaded, self._arm, [*placement.joints.tolist(), *placement.fingers.tolist()])
         self.cap(self._most)
         self._stand_still([*placement.joints.tolist(), *placement.commanded_fingers.tolist()])
-        self._points, self._steps, self._seen = [], 0, None
+        self._points, self._pairs, self._steps, self._seen = [], {}, 0, None
 
     def arm(self) -> ArmReading:
         """The arm as it is now."""
@@ -105,7 +114,7 @@ class PybulletEngine:
             joints=values[:dof],
             fingers=values[dof:],
             commanded_fingers=np.array(self._way[-1][dof:]),
-            gripper=np.array([x, y, yaw_of((x, y, z, qw, qx, qy, qz))]),
+            gripper=seen_from_above((x, y, z, qw, qx, qy, qz)),
             efforts=np.abs([state[3] for state in states[:dof]]),
             inertias=self._inertias(),
         )
@@ -125,11 +134,21 @@ class PybulletEngine:
 
     def contacts(self) -> Iterator[EngineContact]:
         """The arm's contacts with anything else, told by links and bodies."""
-        parts, sides, bodies = self.loaded.parts, self.loaded.sides, self.bodies
+        pairs = self._pairs
         for point in self._points:
-            body, link, (x, y, z) = point[2], point[3], point[7]
-            row, finger = bodies.rows.get(body), sides.get(link, 0)
-            yield EngineContact(parts[link], bodies.names[body], body in bodies.walls, row, finger, (-x, -y, -z))
+            touching, (x, y, z) = (point[3], point[2]), point[7]
+            pair = pairs.get(touching) or pairs.setdefault(touching, self._pair(*touching))
+            yield pair, (-x, -y, -z)
+
+    def _pair(self, link: int, body: int) -> ContactPair:
+        loaded, bodies = self.loaded, self.bodies
+        return ContactPair(
+            loaded.parts[link],
+            bodies.names[body],
+            body in bodies.walls,
+            bodies.rows.get(body),
+            loaded.sides.get(link, 0),
+        )
 
     def trouble(self) -> str | None:
         """That the arm is nowhere."""

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from phframe.backends.articulated import ObjectReading
 from phframe.backends.pybullet_.options import PybulletOptions
 from phframe.backends.pybullet_.output_capture import bullet
@@ -40,7 +38,7 @@ class Rest:
 
     def __init__(self, client: int, scene: Scene, bodies: Bodies, options: PybulletOptions) -> None:
         self._client, self._scene, self._bodies, self._options = client, scene, bodies, options
-        self._radii = scene.radii
+        self._radii: list[float] = scene.radii.tolist()
         self._calm = [0] * len(scene.objects)
         self._rolls: set[int] = set()
         for body in bodies.objects.values() if options.sleep else ():
@@ -51,8 +49,8 @@ class Rest:
         self.let_roll(objects.poses)
         if not self._options.sleep:
             return
-        straight, turning = (np.linalg.norm(part, axis=1) for part in np.hsplit(objects.velocities, 2))
-        for row, speed in enumerate((straight + turning * self._radii).tolist()):
+        for row, (x, y, z, roll, pitch, yaw) in enumerate(objects.velocities.tolist()):
+            speed = math.hypot(x, y, z) + math.hypot(roll, pitch, yaw) * self._radii[row]
             self._calm[row] = calm = self._calm[row] + 1 if speed < CALM else 0
             if calm and calm % LONG == 0 and row in self._bodies.objects:
                 self._set(self._bodies.objects[row], activationState=bullet.ACTIVATION_STATE_SLEEP)

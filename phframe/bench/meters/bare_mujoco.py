@@ -19,7 +19,7 @@ Changes = tuple[tuple[Any, Any], ...]
 
 
 @dataclass(slots=True)
-class Tape:
+class MujocoTape:
     """What a backend did with the engine, one entry for each of its calls of ``mj_step``.
 
     Attributes:
@@ -40,9 +40,9 @@ class Tape:
         return sum(self.counts)
 
 
-def note(physics: MujocoPhysics, run: Callable[[], object]) -> Tape:
+def note(physics: MujocoPhysics, run: Callable[[], object]) -> MujocoTape:
     """Run something on a backend, and note what it does with the engine."""
-    tape, step = Tape(), mujoco.mj_step
+    tape, step = MujocoTape(), mujoco.mj_step
     model, data = _engine(physics)
     watched = (model.actuator_forcerange, model.geom_conaffinity, data.qpos, data.qvel, data.xfrc_applied)
     known = [array.copy() for array in watched]
@@ -64,7 +64,7 @@ def note(physics: MujocoPhysics, run: Callable[[], object]) -> Tape:
     return tape
 
 
-def play(physics: MujocoPhysics, tape: Tape) -> float:
+def play(physics: MujocoPhysics, tape: MujocoTape) -> float:
     """Seconds of the bare loop, from where the backend's world is; it ends where the backend did, bit by bit."""
     model, data = _engine(physics)
     ctrl, step, entries = data.ctrl, mujoco.mj_step, [*zip(tape.controls, tape.counts, tape.changes, strict=True)]

@@ -35,7 +35,7 @@ Call = tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]
 
 
 @dataclass(slots=True)
-class Tape:
+class PybulletTape:
     """What a backend told the engine, in order.
 
     Attributes:
@@ -49,9 +49,9 @@ class Tape:
     end: tuple[Any, ...] = ()
 
 
-def note(physics: PybulletPhysics, run: Callable[[], object]) -> Tape:
+def note(physics: PybulletPhysics, run: Callable[[], object]) -> PybulletTape:
     """Run something on a backend, and note what it tells the engine."""
-    tape = Tape()
+    tape = PybulletTape()
     with ExitStack() as stack:
         for name in WRITING:
             stack.enter_context(patch.object(bullet, name, _noting(tape, name)))
@@ -60,7 +60,7 @@ def note(physics: PybulletPhysics, run: Callable[[], object]) -> Tape:
     return tape
 
 
-def play(physics: PybulletPhysics, tape: Tape) -> float:
+def play(physics: PybulletPhysics, tape: PybulletTape) -> float:
     """Seconds of the bare loop, from where the backend's world is; it ends where the backend did, bit by bit."""
     calls = tape.calls
     began = time.process_time()
@@ -71,7 +71,7 @@ def play(physics: PybulletPhysics, tape: Tape) -> float:
     return seconds
 
 
-def _noting(tape: Tape, name: str) -> Callable[..., Any]:
+def _noting(tape: PybulletTape, name: str) -> Callable[..., Any]:
     function = getattr(bullet, name)
 
     def noting(*arguments: Any, **named: Any) -> Any:

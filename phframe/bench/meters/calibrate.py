@@ -26,7 +26,7 @@ GRID: Mapping[str, tuple[float | None, ...]] = {
 BEFORE: Values = {"standing_radius": None, "arm_acceleration": None, "object_friction": 0.2, "arm_friction": 0.3}
 """Where the fit starts: the backend's defaults."""
 GAIN = 0.03
-"""A value that improves the fit by less than this share is not worth having."""
+"""A value that improves the fit by less than this fraction is not worth having."""
 CROWDS = (6, 10, 14, 18)
 """Numbers of obstacles in the random scenes, in turns."""
 ROUNDS = 3

@@ -1,4 +1,4 @@
-"""What it takes to lift a plan to the joints of a real arm: motion planning for each action, and the whole of a plan."""
+"""What planning the joint trajectories of a plan takes with a real arm: for each action, and for the whole plan."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class MotionPlanning:
 
 
 def measure_motion_planning(name: str, backend: str) -> MotionPlanning:
-    """Plan with PHIA in pymunk, and lift the plan action by action, each from where the plan expects the world to be."""
+    """Plan with PHIA in pymunk, then plan a joint trajectory for each action, from where the plan expects the world to be."""
     scene = find_scene(name)
     with PlanningWorld(WorldSpec(scene, "pymunk", ARM)) as planning:
         task = retrieval_task(planning)

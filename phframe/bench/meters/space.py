@@ -14,7 +14,7 @@ from phframe.bench.meters.calibrate import BEFORE, Calibration, calibrate
 from phframe.bench.meters.motion_planning import ARM, MotionPlanning, measure_motion_planning
 from phframe.bench.meters.simulation import BARE, BARS, Simulation, measure_simulation
 from phframe.bench.meters.sweeps import Prediction, compare, outcomes, planned_sweeps, score
-from phframe.core import NotInstalledError
+from phframe.core import NotInstalledError, motion_planner_of
 from phframe.registry import Kind, create, load
 from phframe.runtime.run import PLAN_OPTIONS
 from phframe.runtime.scenes import find_scene
@@ -60,7 +60,7 @@ def _can_move(arm: str) -> bool:
     try:
         model = create(Kind.ARM, arm)
         scene = find_scene("vieira/basic")
-        model.motion_planner(scene, model.default_base_pose(scene.shelf))
+        motion_planner_of(model, scene, model.default_base_pose(scene.shelf))
     except NotInstalledError:
         return False
     return True
@@ -77,12 +77,12 @@ def _motions(console: Console, scenes: Sequence[str]) -> list[MotionPlanning]:
 
 def _add_motion_planning(table: Table, rows: Sequence[MotionPlanning]) -> None:
     times, totals = [time for row in rows for time in row.actions], [row.total for row in rows]
-    lifted = len(times) - sum(row.unreachable for row in rows)
+    planned = len(times) - sum(row.unreachable for row in rows)
     table.add_row(f"motion planning for one action, {ARM} (s)", f"{median(times):.2f}", f"{max(times):.2f}", "0.25 / 2")
     table.add_row(
         f"PHIA's plan and all of {ARM}'s trajectories (s)", f"{median(totals):.2f}", f"{max(totals):.2f}", "1"
     )
-    table.add_row(f"actions that {ARM} can do", f"{lifted} of {len(times)}", "", "")
+    table.add_row(f"actions that {ARM} can do", f"{planned} of {len(times)}", "", "")
 
 
 def _simulations(console: Console, scenes: Sequence[str], backend: str) -> list[Simulation]:
