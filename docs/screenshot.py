@@ -35,9 +35,8 @@ DRAWN, STEADY = 40, 5
 """Seconds: before the viewer has drawn in software, and between two looks."""
 LOOKS, MOST = 3, 40
 """How many looks must see the same, and after how many it is given up."""
-TOP = 36
-"""Height of the viewer's own bar, which is cut off (pixels)."""
-CLIP = {"x": 0, "y": TOP, "width": WIDTH, "height": HEIGHT - TOP, "scale": 1}
+TOP, PANEL = 36, 32
+"""Height of the viewer's own bar, which is cut off, and of the collapsed time panel (pixels)."""
 
 
 def find_chromium() -> str | None:
@@ -149,10 +148,15 @@ class _Browser:
         for _ in range(MOST):
             self.click(*moment)  # again and again: at first there may be no timeline yet
             time.sleep(STEADY)
-            seen = [*seen[1:], base64.b64decode(self._do("Page.captureScreenshot", format="png", clip=CLIP)["data"])]
+            seen = [*seen[1:], self._picture(HEIGHT - TOP - PANEL)]  # the time panel never quite comes to rest
             if len(set(seen)) == 1:
-                return seen[0]
+                return self._picture(HEIGHT - TOP)
         raise RuntimeError("the viewer does not come to rest")
+
+    def _picture(self, height: int) -> bytes:
+        """What there is below the viewer's own bar (PNG)."""
+        clip = {"x": 0, "y": TOP, "width": WIDTH, "height": height, "scale": 1}
+        return base64.b64decode(self._do("Page.captureScreenshot", format="png", clip=clip)["data"])
 
     def _do(self, method: str, **parameters: Any) -> Any:
         self._number += 1

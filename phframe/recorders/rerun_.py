@@ -32,6 +32,8 @@ from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.versions import versions_of
 
 LOG = "story/log"
+WARNINGS = f"{LOG}/warnings"
+"""An entity of its own: a colour holds for all that an entity says later."""
 PAGE = "story/decision"
 
 
@@ -169,8 +171,10 @@ class RerunRecorder(Observer):
         stream.put(PAGE, rr.TextDocument(page, media_type="text/markdown"))
 
     def _say(self, stream: Stream, line: str, level: str) -> None:
-        color = None if level == "INFO" else palette.RED_INK  # without one, the viewer takes what its theme writes in
-        stream.put(LOG, rr.TextLog(line, level=level, color=color))
+        if level == "INFO":  # in the colour that the viewer's theme writes in
+            stream.put(LOG, rr.TextLog(line, level=level))
+        else:
+            stream.put(WARNINGS, rr.TextLog(line, level=level, color=palette.RED_INK))
 
 
 def _properties(spec: RunSpec) -> dict[str, str]:

@@ -217,12 +217,12 @@ def test_target_displacement_ends_when_it_is_held(recording: Recording) -> None:
 
 def test_story_says_what_was_decided_and_warns(recording: Recording) -> None:
     told = [(value[0], action) for _, action, value in recording.rows("/story/log", "text")]
-    levels = [value[0] for _, _, value in recording.rows("/story/log", "level")]
     assert told[0] == ("hand/made: retrieve mug among 4 other objects (phia, pymunk, arm planar, ripser, seed 7)", 0)
     assert ("plan 2 (replanned): 2 actions, expected to end retrieved (10 ms, 0 simulated actions)", 1) in told
     assert any("radii 76, 152 mm; chosen 76 mm, 2 components" in line for line, _ in told)
-    warned = [line for (line, _), level in zip(told, levels, strict=True) if level == "WARN"]
-    assert warned == [
+    assert {value[0] for _, _, value in recording.rows("/story/log", "level")} == {"INFO"}
+    assert recording.rows("/story/log", "color") == [], "the viewer's theme says in which"
+    assert [value[0] for _, _, value in recording.rows("/story/log/warnings", "text")] == [
         "2. done in 3.0 s, largest force 12 N, object_3 toppled",
         "3. done in 4.0 s, largest force 3 N, touched the north wall",
     ]
@@ -358,7 +358,7 @@ def test_a_plan_that_failed_shows_its_tree_and_where_it_got_farthest(made: Recor
     assert colors == [chosen, chosen, closed, chosen, closed]
     (edges,) = [value for _, _, value in recording.rows("/search/tree", "edges")]
     assert [tuple(edge.values()) for edge in edges] == [("0", "1"), ("0", "2"), ("1", "3"), ("3", "4")]
-    log = [value[0] for _, _, value in recording.rows("/story/log", "text")]
+    log = [value[0] for _, _, value in recording.rows("/story/log/warnings", "text")]
     assert any("3. only simulated" in line and "given up: nothing moved" in line for line in log)
     for item, pose in zip(SCENE.objects, plan.expected[-1].poses, strict=True):
         *_, (_, action, last) = recording.rows(f"/world/objects/{item.id}", "translation")
