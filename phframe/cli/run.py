@@ -130,7 +130,7 @@ def _tell_interrupted(partial: PartialEpisode, directory: RunDirectory) -> None:
     """Keep what there is, and say where."""
     from phframe.runtime.files import save
 
-    episode = partial.episode("interrupted by Ctrl-C")
+    episode = partial.episode
     if episode is not None and directory.path is not None:
         save(episode, directory.path / EPISODE)
         note(f"interrupted; what was recorded is in {directory.path}")
