@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from phframe.cli.exit_codes import ExitCode
 from phframe.cli.run import RunOutput, carry_out, view
 from phframe.cli.run_directory import RunDirectory
 from phframe.core import Episode
+from phframe.core.run_spec import PARTS
 from phframe.runtime.replay import differing_versions, first_difference, spec_of
 
 FORMAT = 1
@@ -25,18 +27,14 @@ class ReplayRequest:
 
     Attributes:
         episode: A directory, or a file.
-        planner: Instead of the episode's; None: the same.
-        backend: Likewise.
-        arm: Likewise.
+        parts: What to take instead of the episode's; None: the same.
         out: Directory for the files; None: none, or a new one.
         view: Whether to open the viewer.
         as_json: Whether to print JSON.
     """
 
     episode: Path
-    planner: str | None
-    backend: str | None
-    arm: str | None
+    parts: Mapping[str, str | None]
     out: Path | None
     view: bool
     as_json: bool
@@ -52,14 +50,14 @@ def run(wanted: ReplayRequest) -> int:
         PhframeError: If the episode cannot be read or repeated; nothing was written then.
     """
     before = read_episode(wanted.episode)
-    spec = spec_of(before, planner=wanted.planner, backend=wanted.backend, arm=wanted.arm)
+    spec = spec_of(before, **wanted.parts)
     kept = wanted.out is not None or wanted.view
     report = RunOutput(wanted.out, record=True if wanted.view else None if kept else False, view=wanted.view)
     directory = RunDirectory(wanted.out, keep=kept)
     carried = carry_out(spec, report, directory)
     if carried is None:
         return ExitCode.INTERRUPTED
-    same_parts = all(getattr(spec, part) == getattr(before.spec, part) for part in ("planner", "backend", "arm"))
+    same_parts = all(getattr(spec, part) == getattr(before.spec, part) for part in PARTS)
     found = _compared(before, carried[0], bits=same_parts)
     emit(json.dumps(found, allow_nan=False) if wanted.as_json else _sentence(found))
     view(report, directory)
