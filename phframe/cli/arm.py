@@ -14,29 +14,21 @@ from phframe.cli.options import only_parts, parse_options
 app = typer.Typer(help="What concerns one arm: what it reaches.", invoke_without_command=True, callback=show_help)
 
 SceneSpec = Annotated[
-    str,
-    flag(
-        "scene",
-        "SCENE",
-        "Whose shelf: a scene such as vieira/basic, or a scene file.",
-        autocompletion=completion.scenes,
-    ),
+    str, flag("SCENE", "Whose shelf: a scene such as vieira/basic, or a scene file.", autocompletion=completion.scenes)
 ]
 BasePose = Annotated[
     tuple[float, float, float, float] | None,
     flag(
-        "mount",
         "X Y Z YAW",
         "Where the base stands in the shelf frame (m, rad).",
         "as the scene says, else the arm's own",
         callback=finite,
     ),
 ]
-Out = Annotated[str | None, flag("out", "PNG", "Picture of the map to write (extra 'plots').", "none")]
+Out = Annotated[str | None, flag("PNG", "Picture of the map to write (extra 'plots').", "none")]
 OptionTexts = Annotated[
     list[str] | None,
     flag(
-        "option",
         "KEY=VALUE",
         "An option of the arm or of the suite of scenes: arm.link_width=0.1, scenes.depth=0.6. Repeatable.",
         autocompletion=completion.options,
@@ -53,7 +45,7 @@ Force = Annotated[bool, typer.Option("--force", help="Overwrite a picture that i
 def reach(
     arm: Arm = "planar",
     scene: SceneSpec = "vieira/basic",
-    base_pose: BasePose = None,
+    mount: BasePose = None,
     out: Out = None,
     option: OptionTexts = None,
     as_json: Json = False,
@@ -64,6 +56,6 @@ def reach(
     The gripper is level, in its plane above the board, and turned by no more than 30 degrees.
     """
     options = only_parts(parse_options(option or ()), "arm", "scenes")
-    from phframe.cli.reaching import ReachRequest, run  # heavy, and not needed where the options are wrong
+    from phframe.cli.reaching import run  # heavy, and not needed where the options are wrong
 
-    run(ReachRequest(arm, scene, base_pose, out, options, as_json, force))
+    run(arm, scene, mount, out, options, as_json=as_json, force=force)

@@ -20,16 +20,16 @@ What = Annotated[
 ]
 Format = Annotated[
     str | None,
-    flag(
-        "format",
-        "NAME",
-        "mjcf: MuJoCo; urdf: one file, every object fixed in place; urdf-parts: a folder with the shelf, each object and "
+    typer.Option(
+        "--format",
+        metavar="NAME",
+        help="mjcf: MuJoCo; urdf: one file, every object fixed in place; urdf-parts: a folder with the shelf, each object and "
         "their poses; json, csv: the joint trajectories of an episode.",
-        "as the name after --out ends, else mjcf for a scene and json for an episode",
+        show_default="as the name after --out ends, else mjcf for a scene and json for an episode",
         autocompletion=completion.export_formats,
     ),
 ]
-Out = Annotated[str, flag("out", "FILE", "File, or folder for urdf-parts, to write; - is standard output.")]
+Out = Annotated[str, flag("FILE", "File, or folder for urdf-parts, to write; - is standard output.")]
 Arm = Annotated[
     str | None,
     part(
@@ -42,13 +42,12 @@ Arm = Annotated[
 OptionTexts = Annotated[
     list[str] | None,
     flag(
-        "option",
         "KEY=VALUE",
         "An option of the arm or of the suite of scenes: arm.link_width=0.1, scenes.count=12. Repeatable.",
         autocompletion=completion.options,
     ),
 ]
-Number = Annotated[int | None, flag("action", "INTEGER", "Only this action's trajectory, from 1.", "all", min=1)]
+Number = Annotated[int | None, flag("INTEGER", "Only this action's trajectory, from 1.", "all", min=1)]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite files that are there.")]
 
 

@@ -11,22 +11,21 @@ import typer
 from phframe.cli import completion
 
 
-def flag(name: str, metavar: str, meaning: str, default: str | bool = True, **more: Any) -> Any:
-    """A flag that takes a value.
+def flag(metavar: str, meaning: str, default: str | bool = True, **more: Any) -> Any:
+    """A flag that takes a value, called like the parameter of the command.
 
     Args:
-        name: What it is called, without ``--``.
         metavar: What its value is called.
         meaning: Its help.
         default: What the help says it is by default; True: the value that the command has for it.
         more: For ``typer.Option``.
     """
-    return typer.Option(f"--{name}", metavar=metavar, help=meaning, show_default=default, **more)
+    return typer.Option(metavar=metavar, help=meaning, show_default=default, **more)
 
 
-def part(name: str, meaning: str, default: str | bool = True) -> Any:
-    """The flag of an exchangeable part, such as ``plan-arm``: the shell offers what is registered; otherwise as ``flag``."""
-    return flag(name, "NAME", meaning, default, autocompletion=completion.names(name.removeprefix("plan-")))
+def part(kind: str, meaning: str, default: str | bool = True) -> Any:
+    """The flag of an exchangeable part of a kind, whose registered names the shell offers; otherwise as ``flag``."""
+    return flag("NAME", meaning, default, autocompletion=completion.names(kind))
 
 
 def path(text: str | Path) -> Path:

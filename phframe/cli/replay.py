@@ -29,18 +29,14 @@ Planner = Annotated[
 Backend = Annotated[str | None, part("backend", "Carry the plans out in this physics instead.", _SAME)]
 Arm = Annotated[str | None, part("arm", "Carry the plans out with this arm instead.", _SAME)]
 PlanBackend = Annotated[
-    str | None,
-    part("plan-backend", "Plan in this physics instead.", f"{_SAME}; if that is its backend, as --backend says"),
+    str | None, part("backend", "Plan in this physics instead.", f"{_SAME}; as in solve if --backend replaces it")
 ]
-PlanArm = Annotated[
-    str | None, part("plan-arm", "Plan with this arm instead.", f"{_SAME}; if that is its arm, as --arm says")
-]
+PlanArm = Annotated[str | None, part("arm", "Plan with this arm instead.", f"{_SAME}; the arm if --arm replaces it")]
 Topology = Annotated[str | None, part("topology", "Compute persistence diagrams with this instead.", _SAME)]
 Goal = Annotated[str | None, part("goal", "Achieve this instead.", _SAME)]
 Out = Annotated[
     Path | None,
     flag(
-        "out",
         "DIR",
         "Directory for the files of the repetition; it must be new or empty.",
         "none are written, with --view a new one in runs/",
@@ -69,8 +65,8 @@ def replay(
     With another part, such as a planner, the outcomes are compared. Exit code 0: the same; 1: not the same; 2: bad input;
     3: something not installed; 130: Ctrl-C.
     """
-    from phframe.cli.replaying import ReplayRequest, run  # heavy, and not needed where the command line is wrong
+    from phframe.cli.replaying import run  # heavy, and not needed where the command line is wrong
     from phframe.core.run_spec import PARTS
 
     parts = dict(zip(PARTS, (planner, backend, arm, plan_backend, plan_arm, topology, goal), strict=True))
-    raise typer.Exit(run(ReplayRequest(episode, parts, out, view, as_json)))
+    raise typer.Exit(run(episode, parts, out, view=view, as_json=as_json))

@@ -14,17 +14,16 @@ app = typer.Typer(
 )
 
 File = Annotated[str, typer.Argument(metavar="FILE", help="A MuJoCo XML file.")]
-Out = Annotated[str, flag("out", "FILE", "Scene file to write; - is standard output.")]
+Out = Annotated[str, flag("FILE", "Scene file to write; - is standard output.")]
 Target = Annotated[
     str | None,
     flag(
-        "target",
         "NAME",
         "The body that is to be taken out.",
         "what the file says, else what is named like a target or goal, else the first",
     ),
 ]
-Name = Annotated[str | None, flag("name", "NAME", "What the scene is to be called.", "as the model")]
+Name = Annotated[str | None, flag("NAME", "What the scene is to be called.", "as the model")]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite a file that is there.")]
 
 

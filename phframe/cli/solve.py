@@ -27,19 +27,17 @@ Planner = Annotated[
 ]
 Backend = Annotated[str, part("backend", "The physics to act in: a name ('phframe backends') or ./mine.py:Mine.")]
 PlanBackend = Annotated[
-    str | None,
-    part("plan-backend", "The physics to plan in.", "pymunk where the backend drives joints, else the backend"),
+    str | None, part("backend", "The physics to plan in.", "pymunk where the backend drives joints, else the backend")
 ]
-PlanArm = Annotated[str | None, part("plan-arm", "The robot arm to plan with.", "the arm")]
+PlanArm = Annotated[str | None, part("arm", "The robot arm to plan with.", "the arm")]
 Topology = Annotated[
     str, part("topology", "What computes persistence diagrams: a name ('phframe topology') or ./mine.py:Mine.")
 ]
 Goal = Annotated[str, part("goal", "What is to be achieved: a name ('phframe goals') or ./mine.py:Mine.")]
-Seed = Annotated[int, flag("seed", "INTEGER", "Seed of everything random; the same seed, the same result.", min=0)]
+Seed = Annotated[int, flag("INTEGER", "Seed of everything random; the same seed, the same result.", min=0)]
 NoiseText = Annotated[
     str | None,
     flag(
-        "noise",
         "KEY=VALUE,...",
         "What the planner believes against what is true: position=0.005 (standard deviation of where it sees an "
         "object, m), friction=0.3 (relative standard deviation of its friction with the board), or both.",
@@ -49,7 +47,6 @@ NoiseText = Annotated[
 OptionTexts = Annotated[
     list[str] | None,
     flag(
-        "option",
         "KEY=VALUE",
         "An option of the planner, or with a prefix of another part: margin=0.02, backend.step=0.002, "
         "arm.link_width=0.1, plan_backend.KEY, topology.KEY, goal.KEY, scenes.count=12. Repeatable. 'phframe planners NAME' and so "
@@ -58,19 +55,11 @@ OptionTexts = Annotated[
     ),
 ]
 TimeLimit = Annotated[
-    float,
-    flag(
-        "time-limit",
-        "SECONDS",
-        "Longest planning time, all replans together (wall time, s).",
-        min=0.001,
-        callback=finite,
-    ),
+    float, flag("SECONDS", "Longest planning time, all replans together (wall time, s).", min=0.001, callback=finite)
 ]
 MaxReplans = Annotated[
     int,
     flag(
-        "max-replans",
         "INTEGER",
         "How often to plan anew at most: where reality differs from the plan, or the arm cannot do an action.",
         min=0,
@@ -79,7 +68,6 @@ MaxReplans = Annotated[
 Tolerance = Annotated[
     float,
     flag(
-        "tolerance",
         "METRES",
         "How far an object may be from where the plan expected it before planning anew (m).",
         min=0.0,
@@ -87,13 +75,11 @@ Tolerance = Annotated[
     ),
 ]
 Simulations = Annotated[
-    int | None,
-    flag("simulations", "INTEGER", "Most simulated actions for planning, all replans together.", "no limit", min=0),
+    int | None, flag("INTEGER", "Most simulated actions for planning, all replans together.", "no limit", min=0)
 ]
 Workers = Annotated[
     int,
     flag(
-        "workers",
         "INTEGER",
         "Processes for planners that try many actions at once; the result is the same with any number.",
         min=1,
@@ -102,7 +88,6 @@ Workers = Annotated[
 Out = Annotated[
     Path | None,
     flag(
-        "out",
         "DIR",
         "Directory for episode.json, summary.json and recording.rrd; it must be new or empty.",
         "a new one in runs/",
@@ -120,7 +105,6 @@ Rerun = Annotated[
 Video = Annotated[
     Path | None,
     flag(
-        "video",
         "FILE",
         "Film the episode: FILE.mp4, or FILE.webp for a small moving picture, three times as quick. Replaced if it "
         "exists.",
