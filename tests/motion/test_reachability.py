@@ -68,7 +68,7 @@ def test_baxter_reaches_its_shelf_and_less_from_farther_away() -> None:
 @pytest.mark.parametrize("away", [0.0, 0.1, 0.3, 1.0])
 def test_what_is_refused_is_what_arm_reach_says(away: float, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
-    from phframe.cli.reaching import ReachRequest, run
+    from phframe.cli.reaching import run
     from phframe.runtime.scenes import find_scene
     from phframe.runtime.world import LEAST_SERVED
     from tests.arms.baxter_arm import baxter
@@ -76,7 +76,7 @@ def test_what_is_refused_is_what_arm_reach_says(away: float, capsys: pytest.Capt
     arm, shelf = baxter("left"), find_scene("papallas/s02").shelf
     own = arm.default_base_pose(shelf)
     base_pose = own.x - away, own.y, own.z, own.yaw
-    run(ReachRequest("baxter", "papallas/s02", base_pose, None, {"arm": {}, "scenes": {}}, as_json=True, force=False))
+    run("baxter", "papallas/s02", base_pose, None, {"arm": {}, "scenes": {}}, as_json=True, force=False)
     served = arm.fraction_served(shelf, BasePose(*base_pose))
     assert json.loads(capsys.readouterr().out)["fraction"] == served
     assert (served >= LEAST_SERVED) == (away < 0.2)
