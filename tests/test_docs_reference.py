@@ -19,6 +19,7 @@ from pydantic import BaseModel
 
 import phframe
 from phframe import testing
+from phframe.backends.articulated import JointEngine
 from phframe.cli import exit_codes
 from phframe.cli.listing_data import listing
 from phframe.cli.option_list import describe
@@ -263,3 +264,8 @@ def test_the_measured_table_is_about_the_suites_and_planners_there_are() -> None
     assert [tuple(row[:3]) for row in rows] == [(p, s, str(n)) for p in PLANNERS for s, n in sizes.items()]
     for _, _, scenes, cleared, reached, retrieved, clean, *_ in rows:
         assert int(scenes) >= int(cleared) >= int(reached) >= int(retrieved) >= int(clean)
+
+
+def test_every_method_of_an_engine_of_joints_is_explained() -> None:
+    told = [name for row in table("docs/backends.md", "Its methods") for name in re.findall(r"\w+", row[0])]
+    assert told == [name for name, member in vars(JointEngine).items() if callable(member) and not name.startswith("_")]

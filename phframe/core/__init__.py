@@ -19,6 +19,7 @@ from phframe.core.errors import (
     UnknownNameError,
     UnknownShapeError,
 )
+from phframe.core.explored_tree import ROOT, ExploredTree, SearchNode
 from phframe.core.goal import Assessment, Attempt, Goal
 from phframe.core.gripper_path import MOUTH_CLEARANCE, Contacts, GripperPath, Phase, PhaseRule, controlled_path
 from phframe.core.infeasible import Infeasible
@@ -33,7 +34,7 @@ from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_ma
 from phframe.core.rejection import Rejection
 from phframe.core.run_spec import Loop, RunSpec, StoredName
 from phframe.core.scene import Scene, coulomb_with_board
-from phframe.core.search_tree import ROOT, ExploredTree, SearchNode, SearchTree
+from phframe.core.search_tree import SearchTree
 from phframe.core.shape import Cylinder, Shape
 from phframe.core.shelf import BasePose, SceneObject, Shelf
 from phframe.core.state import ArmState, Condition, State

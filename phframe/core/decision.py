@@ -21,7 +21,7 @@ class Decision(Value):
 
     Attributes:
         why: In words, for people.
-        deviations: Which of phframe's own choices where the published method leaves something open were used, by name.
+        deviations: Which deviations were used, where the published method leaves something open, by name.
     """
 
     kind: ClassVar[str] = "decision"

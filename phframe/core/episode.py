@@ -127,7 +127,7 @@ class Episode(Value):
 
     @property
     def deviations(self) -> Counter[str]:
-        """How often each of phframe's own choices was used in the actions carried out."""
+        """How often each deviation was used in the actions carried out."""
         return Counter(deviation for step in self.steps for deviation in step.decision.deviations)
 
     @property
@@ -160,8 +160,8 @@ class Episode(Value):
     @property
     def clean(self) -> bool:
         """Retrieved, and no object other than the target toppled or left the board, and the arm touched no wall."""
-        harmed = {*self.toppled, *self.spilled} - {self.scene.target}
-        return self.status is Status.RETRIEVED and not harmed and not self.wall_contact
+        disordered = {*self.toppled, *self.spilled} - {self.scene.target}
+        return self.status is Status.RETRIEVED and not disordered and not self.wall_contact
 
 
 def prediction_errors(before: State, expected: State, after: State) -> FloatArray:

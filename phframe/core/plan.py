@@ -9,8 +9,8 @@ from typing import Self
 
 from phframe.core.action import Action
 from phframe.core.decision import Decision
-from phframe.core.motion import Motion, Transition
-from phframe.core.search_tree import ROOT, ExploredTree, SearchNode, SearchTree
+from phframe.core.explored_tree import ExploredTree, SearchNode
+from phframe.core.motion import Motion
 from phframe.core.state import State
 from phframe.core.status import Status
 from phframe.core.value import Value
@@ -76,10 +76,11 @@ class Plan(Value):
             start: The state before the first.
             steps: The actions, the state expected after each, and why it was chosen.
         """
-        tree, node = SearchTree(start), ROOT
-        for action, expected, *decision in steps:
-            node = tree.child(node, action, Transition(expected, Motion(0.0)), *decision)
-        return cls(status, reason, tree.explored(node))
+        nodes = [SearchNode(start)]
+        for action, expected, *given in steps:
+            decision = given[0] if given else Decision()
+            nodes.append(SearchNode(expected, len(nodes) - 1, action, Motion(0.0), decision))
+        return cls(status, reason, ExploredTree(tuple(nodes), len(nodes) - 1))
 
     @property
     def actions(self) -> tuple[Action, ...]:
@@ -103,7 +104,7 @@ class Plan(Value):
 
     @property
     def deviations(self) -> Counter[str]:
-        """How often each of phframe's own choices, where the published method leaves something open, was used."""
+        """How often each deviation, where the published method leaves something open, was used."""
         return Counter(deviation for decision in self.decisions for deviation in decision.deviations)
 
     @property

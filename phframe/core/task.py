@@ -12,13 +12,14 @@ import numpy as np
 from phframe.core.action import Action
 from phframe.core.arm import ArmShape
 from phframe.core.errors import BudgetExceededError, InputError
+from phframe.core.explored_tree import ExploredTree
 from phframe.core.goal import Goal
 from phframe.core.motion import Transition
 from phframe.core.physics import Stop, SupportsPropagation
 from phframe.core.plan import Cost, Plan
 from phframe.core.rejection import Rejection
 from phframe.core.scene import Scene
-from phframe.core.search_tree import ExploredTree, SearchTree
+from phframe.core.search_tree import SearchTree
 from phframe.core.state import State
 from phframe.core.steering import Begin, Steering
 from phframe.core.topology import PersistenceDiagram, TopologyEngine

@@ -80,7 +80,7 @@ class Kinematics:
         """The same for a pose as Pinocchio has it.
 
         Newton-Raphson with the body Jacobian and the error ``e = log6(T(q)^-1 T*)`` (K. Lynch and F. Park, "Modern
-        Robotics", 2017, section 6.2.2), each step damped the more, the farther the pose is (S. Buss, "Introduction to
+        Robotics", 2017, section 6.2.2), each step damped the more, the farther the pose is (S. R. Buss, "Introduction to
         Inverse Kinematics with Jacobian Transpose, Pseudoinverse and Damped Least Squares methods", 2009).
         """
         q = np.clip(start, self.lower, self.upper)

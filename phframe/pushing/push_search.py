@@ -89,13 +89,13 @@ class PushSearch:
         found = self.tree[end]
         assert found.motion is not None, "simulated"
         outcome = self.task.goal.assess(self.task.scene, found.state, Attempt(grasp.action, found.motion))
-        return Plan(outcome.status, outcome.reason, self.tree.explored(end))
+        return self.tree.plan(end, outcome.status, outcome.reason)
 
     def fail(self, node: int, reason: str) -> Plan:
         """The plan that ends at a node without success, and why; what was rejected before is told, too."""
         why = dict.fromkeys(each.reason for each in self.task.rejected)
         rejected = f" (rejected before: {'; '.join(why)})" if why else ""
-        return Plan(Status.FAILED, reason + rejected, self.tree.explored(node))
+        return self.tree.plan(node, Status.FAILED, reason + rejected)
 
     def _rounds(self, node: int) -> int:
         """How often blockers of the grasp were pushed on the path to a node."""

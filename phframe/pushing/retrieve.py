@@ -51,7 +51,11 @@ class Retrieve(Goal[RetrieveOptions]):
         return scene if wanted in (None, scene.target) else replace(scene, target=wanted)
 
     def assess(self, scene: Scene, state: State, last: Attempt | None = None) -> Assessment:
-        """How far it got. The goal is lost once the target lies or is gone, or anything but a retrieved target is held."""
+        """How far it got.
+
+        The goal is lost once the target lies or is gone, or is held without having come out, or something is held that
+        the last action was not to hold.
+        """
         scene = self.scene(scene)
         row, target = scene.target_index, scene.target
         if state.held == target and state.positions[row, 0] + scene.radii[row] <= 0.0:
@@ -62,7 +66,8 @@ class Retrieve(Goal[RetrieveOptions]):
         if state.conditions[row] is not Condition.UPRIGHT:
             return Assessment(Status.FAILED, f"the target {target!r} is {state.conditions[row]}", lost=True)
         if state.held not in (None, target):
-            return Assessment(Status.FAILED, f"{state.held} is in the hand instead of {target}", lost=True)
+            meant = last is not None and last.action.path.manipuland == state.held
+            return Assessment(Status.FAILED, f"{state.held} is in the hand instead of {target}", lost=not meant)
         return Assessment(status, reason, lost=state.held is not None)
 
     def _as_it_stands(self, scene: Scene, state: State) -> tuple[Status, str]:

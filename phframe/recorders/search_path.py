@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from phframe.core import ROOT, Decision, ExploredTree, Motion, SearchNode, Step, time_path
-from phframe.core.search_tree import path_to
+from phframe.core.explored_tree import path_to
 
 
 def farthest_path(tree: ExploredTree) -> Iterator[tuple[Step, str]]:

@@ -10,7 +10,7 @@ import numpy as np
 import rerun as rr
 
 from phframe.core import ROOT, ExploredTree, FloatArray, SearchNode
-from phframe.core.search_tree import path_to
+from phframe.core.explored_tree import path_to
 from phframe.recorders import palette
 from phframe.recorders.stream import Stream
 

@@ -154,7 +154,7 @@ class _Run:
         simulations = None if loop.simulations is None else max(0, loop.simulations - spent.simulated_actions)
         before = self._planning.motion_planning_time
         task = self._planning.task(
-            self._seen if self._same_arm else replace(self._seen, held=None, arm=None),
+            self._seen if self._same_arm else _for_another_arm(self._seen),
             self._topology,
             np.random.default_rng(self._seeds.spawn(1)[0]),
             goal=self._goal,
@@ -205,13 +205,13 @@ class _Run:
                 self._reject(action, outcome.reason)
             return outcome.reason
         problem = self._deviation(expected, action)
-        if problem and self._is_idle:
+        if problem and action.moves and self._is_idle:
             self._reject(action, "nothing moved")
         return problem
 
     @property
     def _is_idle(self) -> bool:
-        """Whether the last action was to move something and moved nothing: it would go on moving nothing."""
+        """Whether the last action moved nothing."""
         step = self._steps[-1]
         return bool((step.after.displacement(step.before) <= MOVED).all())
 
@@ -254,3 +254,10 @@ class _Run:
     def _tell(self, what: Callable[[Observer], None]) -> None:
         for observer in self._observers:
             what(observer)
+
+
+def _for_another_arm(state: State) -> State:
+    """A state as another arm or backend can take it up: with the gripper where it is if it holds something, else parked."""
+    if state.held is None or state.arm is None:
+        return state.parked()
+    return replace(state, arm=replace(state.arm, joints=None))

@@ -17,7 +17,7 @@ def summarize(episode: Episode, recording: Path | None = None) -> dict[str, Any]
 
     ``actions`` counts pushes (the paper's number of actions), ``planning_time`` is wall time with all replans (s),
     ``execution_time`` simulated time (s), ``target_moved`` before the grasp (m), ``spilled`` leaves a retrieved target out.
-    ``motion_planning_time`` is wall time for lifting to joints (s), ``tracking_error`` the fingertip's worst (m),
+    ``motion_planning_time`` is wall time of planning joint trajectories (s), ``tracking_error`` the fingertip's worst (m),
     ``prediction_error`` of the objects that actions moved (m), or null where nothing was predicted or moved; ``noise`` is
     that of what the planner believed, empty where it was told the truth.
     """

@@ -76,7 +76,7 @@ class World:
         spec: What to build.
 
     Attributes:
-        lifting_time: Wall time spent on motion planning so far (s).
+        motion_planning_time: Wall time spent on motion planning so far (s).
 
     Raises:
         UnknownNameError: If the backend or the arm does not exist.

@@ -165,7 +165,7 @@ def test_home_is_level_before_the_mouth(side: Side) -> None:
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_the_default_mount_is_the_measured_one(side: Side) -> None:
+def test_the_default_base_pose_is_the_measured_one(side: Side) -> None:
     arm = baxter(side)
     mouth = compose(inverse(arm.default_base_pose(SHELF).pose), planar_pose(0.0, SHELF.width / 2.0, 0.0))
     np.testing.assert_allclose(mouth[:3], [0.675, 0.35 if side == "left" else -0.35, 0.15], atol=1e-12)

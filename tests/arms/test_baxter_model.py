@@ -1,4 +1,4 @@
-"""Baxter's body: masses, inertias, limits and covers as in the sources, in a URDF that engines load without complaint."""
+"""Baxter's body: masses, inertias, limits and collision geometry as in the sources, in a URDF that every engine loads."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from phframe.urdf.model import CollisionGeometry, Mimic
 from phframe.urdf.reader import read_robot
 from phframe.urdf.solids import Solid
 from tests.arms.baxter_arm import SIDES, baxter
-from tests.arms.covers import Covers
+from tests.arms.collision_surface import CollisionSurface
 
 pytestmark = pytest.mark.needs_baxter
 BOTH = pytest.mark.parametrize("side", SIDES)
@@ -83,7 +83,7 @@ COVERS: dict[tuple[str, str], tuple[str, tuple[float, ...]]] = {
     ("left_lower_forearm", "tube"): ("cylinder", (0.066, 0.113)),
     ("fingertip", "body"): ("box", (0.0534, 0.1055, 0.066)),
 }
-"""Sizes of what is inside the shelf, as measured on the real covers; the body seen from the fingertip."""
+"""Sizes of what is inside the shelf, as measured on the real shells; the body seen from the fingertip."""
 
 
 @pytest.mark.parametrize(("link", "part"), COVERS)
@@ -127,7 +127,7 @@ def test_the_idle_arm_does_not_move_and_keeps_out_of_the_way(side: Side) -> None
     other = "right" if side == "left" else "left"
     idle = tuple(link for link in robot.collision_geometry if link.startswith(f"{other}_"))
     assert len(idle) == 10
-    points = Covers(arm, arm.default_base_pose(shelf), idle).in_shelf(arm.home)
+    points = CollisionSurface(arm, arm.default_base_pose(shelf), idle).in_shelf(arm.home)
     outside = (points[:, 0] < -0.1) | (points[:, 1] < -0.3) | (points[:, 1] > shelf.width + 0.3)
     assert outside.all()
 
@@ -138,7 +138,7 @@ def test_at_home_the_arm_is_before_the_mouth_and_clear_of_the_body(side: Side) -
     distal = ("lower_elbow", "upper_forearm", "lower_forearm", "wrist")
     links = (*(f"{side}_{link}" for link in distal), "fingertip", *arm.fingers.links)
     base_pose = arm.default_base_pose(shelf)
-    points = Covers(arm, base_pose, links).in_shelf(arm.home)
+    points = CollisionSurface(arm, base_pose, links).in_shelf(arm.home)
     assert float(points[:, 0].max()) < 0.0
     seen_from_base = points - [base_pose.x, base_pose.y, base_pose.z]
     for box in figures.TORSO_GEOMETRY:

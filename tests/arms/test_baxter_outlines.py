@@ -1,4 +1,4 @@
-"""Baxter's outlines against its covers: what planning in the plane sees is what is there in space."""
+"""Baxter's outlines against its collision geometry: what planning in the plane sees is what is there in space."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
 
 from phframe.core import FloatArray, Outline, Shelf, compose, inverse, planar_pose
 from tests.arms.baxter_arm import baxter
-from tests.arms.covers import Covers
+from tests.arms.collision_surface import CollisionSurface
 
 pytestmark = pytest.mark.needs_baxter
 ARM, SHELF = baxter("left"), Shelf(0.594, 0.584)
 MOUNT = ARM.default_base_pose(SHELF)
 TOLERANCE = 2e-3
-"""Of widths (m): covers are sampled, outlines drawn around round ones."""
+"""of widths (m): surfaces are sampled, outlines drawn around round ones."""
 BARREL = 0.03
 """By how much the wrist's barrel stands out farther where its axis lies level and across (m)."""
 GRIPPER = 0.215
 """How far behind the fingertip the gripper and the wrist that turns with it reach (m)."""
 
 
-def covers(*links: str) -> Covers:
-    return Covers(ARM, MOUNT, links)
+def surface(*links: str) -> CollisionSurface:
+    return CollisionSurface(ARM, MOUNT, links)
 
 
 @cache
-def whole_arm() -> Covers:
+def whole_arm() -> CollisionSurface:
     arm = ("upper_elbow", "lower_elbow", "upper_forearm", "lower_forearm", "wrist")
-    return covers(*(f"left_{link}" for link in arm), "fingertip", *ARM.fingers.links)
+    return surface(*(f"left_{link}" for link in arm), "fingertip", *ARM.fingers.links)
 
 
 def half_widths(distances: FloatArray) -> FloatArray:
@@ -86,10 +86,10 @@ def test_wherever_the_arm_can_be_it_can_be_within_its_outlines() -> None:
     assert (least <= BARREL).mean() >= 0.95, "else the wrist's barrel lies across"
 
 
-def test_the_gripper_is_as_wide_as_its_covers() -> None:
+def test_the_gripper_is_as_wide_as_its_collision_geometry() -> None:
     q = ARM.inverse(compose(inverse(MOUNT.pose), planar_pose(0.4, SHELF.width / 2.0, 0.10)), ARM.home)
     assert q is not None
-    points = covers("left_wrist", "fingertip", *ARM.fingers.links).behind_tip(q)
+    points = surface("left_wrist", "fingertip", *ARM.fingers.links).behind_tip(q)
     for near in np.arange(0.005, GRIPPER - 0.01, 0.01):
         slice_ = points[(points[:, 0] < -near) & (points[:, 0] > -near - 0.02)]
         outlined = half_widths(np.linspace(near, near + 0.02, 21)).max()
@@ -108,7 +108,7 @@ def test_the_forearm_is_no_wider_in_the_outlines_than_it_can_be() -> None:
         assert outlined <= occurring + 0.01, f"{near:g} m behind the fingertip"
 
 
-def test_each_finger_is_one_outline_and_opens_with_its_covers() -> None:
+def test_each_finger_is_one_outline_and_opens_with_its_collision_geometry() -> None:
     sides = [outline.side for outline in ARM.shape.closed]
     assert (sides.count(1), sides.count(-1)) == (1, 1)
     assert ARM.shape.insertion_width == pytest.approx(0.064, abs=1e-9)
@@ -119,7 +119,7 @@ def test_each_finger_is_one_outline_and_opens_with_its_covers() -> None:
     assert 2.0 * inner == pytest.approx(ARM.shape.max_opening, abs=1e-9)
 
 
-def test_heights_are_those_of_the_covers() -> None:
+def test_heights_are_those_of_the_collision_geometry() -> None:
     by_name = {outline.part: outline for outline in ARM.shape.closed}
     assert (by_name["left finger"].bottom, by_name["left finger"].top) == pytest.approx((-0.021, 0.021))
     assert (by_name["fingertip body"].bottom, by_name["fingertip body"].top) == pytest.approx((-0.02735, 0.03865))

@@ -100,7 +100,7 @@ def test_a_scene_knows_its_rows() -> None:
     assert state.arm is None
 
 
-LYING = np.array([0.2, 0.2, 0.03, np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0])
+TOPPLED = np.array([0.2, 0.2, 0.03, np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0])
 
 
 @pytest.mark.parametrize(
@@ -110,8 +110,8 @@ LYING = np.array([0.2, 0.2, 0.03, np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0])
         (planar_pose(-0.01, 0.2, 0.06), False, Condition.SPILLED),
         (planar_pose(-0.01, 0.2, 0.06), True, Condition.UPRIGHT),
         (planar_pose(0.2, 0.2, -0.3), False, Condition.SPILLED),
-        (LYING, False, Condition.TOPPLED),
-        (LYING, True, Condition.TOPPLED),
+        (TOPPLED, False, Condition.TOPPLED),
+        (TOPPLED, True, Condition.TOPPLED),
     ],
     ids=["stands", "before the mouth", "in the hand", "below", "lies", "lies in the hand"],
 )

@@ -72,7 +72,7 @@ def test_the_deepest_node_is_as_deep_as_any(tree: SearchTree) -> None:
 @given(trees, st.data())
 def test_a_plan_is_a_path_and_goes_through_json(tree: SearchTree, data: st.DataObject) -> None:
     node = data.draw(st.integers(0, len(tree) - 1))
-    plan = Plan(Status.FAILED, "no", tree.explored(node))
+    plan = tree.plan(node, Status.FAILED, "no")
     assert [action.name for action in plan.actions] == [each.action.name for each in tree.path(node) if each.action]
     assert plan.expected == tuple(each.state for each in tree.path(node))
     assert len(plan.decisions) == len(plan.actions)

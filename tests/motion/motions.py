@@ -1,4 +1,4 @@
-"""Paths for arms that are given by a URDF, and what must be true of the motions that they are lifted to."""
+"""Paths for arms that are given by a URDF, and what must be true of the motions that they are planned to."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def planner(arm: ArmModel[Any], scene: Scene = EMPTY, base_pose: BasePose | None
     return motion_planner_of(arm, scene, arm.default_base_pose(scene.shelf) if base_pose is None else base_pose)
 
 
-def lifted(
+def planned(
     planner: MotionPlanner[Any], path: GripperPath, state: State | None = None, seed: int = 0
 ) -> JointTrajectory | Unreachable:
     start = planner.scene.initial_state() if state is None else state
@@ -185,7 +185,7 @@ def seen_at(planner: MotionPlanner[Any], q: FloatArray) -> FloatArray:
 
 def halfway(planner: MotionPlanner[Any], path: GripperPath, x: float) -> FloatArray:
     """Joint values ``(dof,)`` of the motion along a path as the fingertip first is at a depth (m)."""
-    motion = lifted(planner, path)
+    motion = planned(planner, path)
     assert isinstance(motion, JointTrajectory)
     row = int(np.argmax(motion.gripper.poses[:, 0] >= x))
     return np.array(motion.positions[row])

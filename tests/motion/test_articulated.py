@@ -46,9 +46,9 @@ from tests.motion.motions import (
     example,
     grasp,
     insertion,
-    lifted,
     off_the_path,
     paths,
+    planned,
     planner,
     seen,
     sweep,
@@ -132,7 +132,7 @@ def test_the_gripper_follows_the_path(name: str, kind: str) -> None:
     arm = ARMS[name]()
     path, ours = paths(arm)[kind], planner(arm)
     start = EMPTY.initial_state()
-    motion = lifted(ours, path)
+    motion = planned(ours, path)
     check(motion, ours, path, start)
     assert isinstance(motion, JointTrajectory)
     assert motion.positions[0].tobytes() == arm.home.tobytes()
@@ -141,14 +141,14 @@ def test_the_gripper_follows_the_path(name: str, kind: str) -> None:
 
 @settings(max_examples=8, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 @given(data=st.data())
-def test_whatever_is_lifted_keeps_the_promises(data: st.DataObject) -> None:
+def test_whatever_is_planned_keeps_the_promises(data: st.DataObject) -> None:
     """Anywhere that baxter_mount.md says can be followed, and where not, a reason."""
     arm = ARMS[data.draw(st.sampled_from(sorted(ARMS)))]()
     x, y = data.draw(st.floats(0.1, 0.5)), data.draw(st.floats(MIDDLE - 0.2, MIDDLE + 0.2))
     end = data.draw(st.floats(MIDDLE - 0.2, MIDDLE + 0.2))
     path = data.draw(st.sampled_from([insertion(arm, x, y), sweep(arm, x, y, end), grasp(arm, x, y)]))
     ours, start = planner(arm), EMPTY.initial_state()
-    motion = lifted(ours, path)
+    motion = planned(ours, path)
     assume(isinstance(motion, JointTrajectory))
     check(motion, ours, path, start)
 
@@ -180,7 +180,7 @@ def judge_of(planner: MotionPlanner[Any], state: State) -> Any:
 def test_in_a_crowd_nothing_forbidden_is_touched(name: str) -> None:
     arm = ARMS[name]()
     ours, path, start = planner(arm, CROWD), grasp(arm, 0.4, MIDDLE), CROWD.initial_state()
-    motion = lifted(ours, path)
+    motion = planned(ours, path)
     check(motion, ours, path, start)
     assert isinstance(motion, JointTrajectory)
     check_nothing_is_hit(motion, ours, path, start)
@@ -190,12 +190,12 @@ def test_what_has_spilled_is_in_nobodys_way() -> None:
     arm = baxter()
     scene = Scene("s", SHELF, (cylinder("blocking", 0.2, MIDDLE), cylinder("target", 0.4, MIDDLE)), "target")
     path, start = grasp(arm, 0.4, MIDDLE), scene.initial_state()
-    found = lifted(planner(arm, scene), path)
+    found = planned(planner(arm, scene), path)
     assert isinstance(found, Unreachable)
     assert "blocking" in found.bodies
     assert "blocking" in found.why
     spilled = State(start.poses, (Condition.SPILLED, Condition.UPRIGHT))
-    assert isinstance(lifted(planner(arm, scene), path, spilled), JointTrajectory)
+    assert isinstance(planned(planner(arm, scene), path, spilled), JointTrajectory)
 
 
 @pytest.mark.parametrize(
@@ -205,7 +205,7 @@ def test_what_has_spilled_is_in_nobodys_way() -> None:
 def test_beyond_what_the_arm_can_do_it_says_where_and_why(x: float, y: float, why: str) -> None:
     """The fingers are 0.053 m to either side, and what lies behind the shelf cannot be reached."""
     arm = baxter()
-    found = lifted(planner(arm), insertion(arm, x, y))
+    found = planned(planner(arm), insertion(arm, x, y))
     assert isinstance(found, Unreachable)
     assert re.search(why, found.why), found
     assert re.search(r"at x -?\d\.\d{3} m, y \d\.\d{3} m, yaw -?\d+ degrees$", found.why)
@@ -219,7 +219,7 @@ def test_where_the_wrist_would_meet_a_wall_the_gripper_is_turned() -> None:
     """At yaw 0 with the tip within 0.066 m of a wall beyond 0.22 m, the tube before the wrist is in the wall."""
     arm = baxter()
     ours, path = planner(arm), insertion(arm, 0.4, SHELF.width - 0.0625)
-    motion = lifted(ours, path)
+    motion = planned(ours, path)
     check(motion, ours, path, EMPTY.initial_state())
     assert isinstance(motion, JointTrajectory)
     inside = motion.gripper.poses[motion.gripper.poses[:, 0] > 0.3, 2]
@@ -231,7 +231,7 @@ def test_from_a_mount_too_far_away_nothing_is_in_reach(away: tuple[float, float,
     arm = baxter()
     usual = arm.default_base_pose(SHELF)
     base_pose = BasePose(usual.x + away[0], usual.y + away[1], usual.z + away[2], usual.yaw)
-    found = lifted(planner(arm, EMPTY, base_pose), insertion(arm, 0.4, MIDDLE))
+    found = planned(planner(arm, EMPTY, base_pose), insertion(arm, 0.4, MIDDLE))
     assert isinstance(found, Unreachable)
     assert "reach" in found.why or "meets" in found.why
     assert "\n" not in found.why

@@ -26,8 +26,8 @@ from tests.motion.motions import (
     bits,
     halfway,
     insertion,
-    lifted,
     paths,
+    planned,
     planner,
 )
 
@@ -44,8 +44,8 @@ def test_the_same_inputs_give_the_same_bits_whatever_was_planned_before(kind: st
     moved = CROWD.initial_state().poses.copy()
     moved[:2, 0], moved[:2, 1] = 0.05, (MIDDLE - 0.11, MIDDLE + 0.11)  # where the forearm has to keep off them
     for other in ("straight", "grasp"):
-        lifted(used, paths(arm)[other], State(moved, CROWD.initial_state().conditions), seed=3)
-    assert bits(lifted(fresh, path)) == bits(lifted(used, path)) == bits(lifted(used, path))
+        planned(used, paths(arm)[other], State(moved, CROWD.initial_state().conditions), seed=3)
+    assert bits(planned(fresh, path)) == bits(planned(used, path)) == bits(planned(used, path))
 
 
 def test_where_the_time_is_up_it_says_so() -> None:
@@ -105,7 +105,7 @@ def lifted_by(
         return 0.0 if looks[0] <= late else 1e9
 
     monkeypatch.setattr("phframe.motion.budget.time.monotonic", clock)
-    return lifted(ours, path, state)
+    return planned(ours, path, state)
 
 
 def result(found: JointTrajectory | Unreachable) -> object:
@@ -123,7 +123,7 @@ def test_the_search_was_needed(monkeypatch: pytest.MonkeyPatch) -> None:
         return allowed(edges, start, end)
 
     monkeypatch.setattr(Edges, "allowed", counted)
-    lifted(ours, path, state)
+    planned(ours, path, state)
     assert len(asked) > 20
 
 

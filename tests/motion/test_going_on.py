@@ -38,7 +38,7 @@ from tests.motion.motions import (
     example,
     halfway,
     insertion,
-    lifted,
+    planned,
     planner,
     seen,
     seen_at,
@@ -66,7 +66,7 @@ def test_after_a_stall_it_draws_back_in_the_same_configuration(name: str, x: flo
     q += np.random.default_rng(0).uniform(-1.0, 1.0, len(q)) * 4e-3  # pressed off the path
     here = arm_state(ours, q)
     state = replace(EMPTY.initial_state(), arm=here)
-    motion = lifted(ours, retreat(arm, here.gripper), state)
+    motion = planned(ours, retreat(arm, here.gripper), state)
     assert isinstance(motion, JointTrajectory), motion
     assert motion.positions[0].tobytes() == q.tobytes()
     assert set(motion.gripper.phases) == {Phase.RETREAT}, "it begins where the arm is"
@@ -86,13 +86,13 @@ def test_what_touches_a_wall_where_it_stands_may_draw_back() -> None:
     ours = planner(arm, scene)
     q = halfway(ours, insertion(arm, 0.15, y + 0.03), 0.12)
     beside = np.append(seen_at(ours, q)[:2], 0.0)
-    inward = lifted(ours, GripperPath(np.array([beside, beside - [0.0, 0.0284, 0.0]]), (Phase.SWEEP,), {
+    inward = planned(ours, GripperPath(np.array([beside, beside - [0.0, 0.0284, 0.0]]), (Phase.SWEEP,), {
         Phase.SWEEP: PhaseRule(0.2, arm.shape.min_opening, Contacts.OBJECTS)}), replace(
             scene.initial_state(), arm=arm_state(ours, q)))  # fmt: skip
     assert isinstance(inward, JointTrajectory), inward
     q = close_to_the_wall(ours, np.array(inward.positions[-1]))
     here = arm_state(ours, q)
-    motion = lifted(ours, retreat(arm, here.gripper), replace(scene.initial_state(), arm=here))
+    motion = planned(ours, retreat(arm, here.gripper), replace(scene.initial_state(), arm=here))
     assert isinstance(motion, JointTrajectory), motion
     assert motion.gripper.poses[-1, 0] < -0.01
 
@@ -114,7 +114,7 @@ def test_from_inside_the_shelf_another_path_is_begun_on_a_free_way() -> None:
     q = halfway(ours, insertion(arm, 0.3, MIDDLE), 0.2)
     state = replace(CROWD.initial_state(), arm=arm_state(ours, q))
     path = insertion(arm, 0.3, MIDDLE + 0.1)
-    motion = lifted(ours, path, state)
+    motion = planned(ours, path, state)
     assert isinstance(motion, JointTrajectory), motion
     assert motion.positions[0].tobytes() == q.tobytes()
     assert motion.gripper.phases[0] is Phase.APPROACH
@@ -129,14 +129,14 @@ def test_joints_that_are_no_numbers_are_refused(value: float) -> None:
     q[3] = value
     state = replace(EMPTY.initial_state(), arm=ArmState(np.array([-0.03, 0.3, 0.0]), 0.035, joints=q))
     with pytest.raises(ArmError, match="finite") as caught:
-        lifted(ours, insertion(arm, 0.3, MIDDLE), state)
+        planned(ours, insertion(arm, 0.3, MIDDLE), state)
     assert "\n" not in str(caught.value)
 
 
 def test_a_gripper_that_cannot_be_where_it_is_said_to_be() -> None:
     arm = baxter()
     state = replace(EMPTY.initial_state(), arm=ArmState(np.array([4.0, 0.3, 0.0]), 0.035))
-    found = lifted(planner(arm), insertion(arm, 0.3, MIDDLE), state)
+    found = planned(planner(arm), insertion(arm, 0.3, MIDDLE), state)
     assert isinstance(found, Unreachable)
     assert "cannot have the gripper where it is said to be" in found.why
 
@@ -146,7 +146,7 @@ def test_joints_a_little_beyond_their_limits_come_back() -> None:
     q = np.array(arm.home)
     q[0] = arm.joints[0].upper + 1e-4
     ours = planner(arm)
-    motion = lifted(ours, insertion(arm, 0.3, MIDDLE), replace(EMPTY.initial_state(), arm=arm_state(ours, q)))
+    motion = planned(ours, insertion(arm, 0.3, MIDDLE), replace(EMPTY.initial_state(), arm=arm_state(ours, q)))
     assert isinstance(motion, JointTrajectory), motion
     assert motion.positions[0].tobytes() == q.tobytes()
     assert motion.positions[-1, 0] <= arm.joints[0].upper
@@ -159,7 +159,7 @@ def test_a_path_on_which_only_the_fingers_move() -> None:
     here = arm_state(ours, q)
     rules = {Phase.GRASP: PhaseRule(0.1, arm.shape.max_opening, Contacts.OBJECTS)}
     path = GripperPath(np.array([here.gripper, here.gripper]), (Phase.GRASP,), rules)
-    motion = lifted(ours, path, replace(EMPTY.initial_state(), arm=here))
+    motion = planned(ours, path, replace(EMPTY.initial_state(), arm=here))
     assert isinstance(motion, JointTrajectory), motion
     assert motion.gripper.openings[-1] == pytest.approx(arm.shape.max_opening)
     assert np.abs(np.ptp(motion.positions, axis=0)).max() < 0.05

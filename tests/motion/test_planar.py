@@ -42,7 +42,7 @@ POSES = np.array([[-0.05, 0.2, 0.1], [0.3, 0.25, 0.1], [0.3, 0.4, -0.2], [0.3, 0
 PATH = GripperPath(POSES, (Phase.INSERT, Phase.SWEEP, Phase.GRASP), RULES, "target")
 
 
-def lifted(path: GripperPath, state: State, base_pose: BasePose) -> JointTrajectory | Unreachable:
+def planned(path: GripperPath, state: State, base_pose: BasePose) -> JointTrajectory | Unreachable:
     planner = PlanarMotionPlanner(SCENE, ARM, base_pose, PlanarMotionOptions())
     return planner.plan(path, state, attempts=1, seconds=1.0, rng=np.random.default_rng(0))
 
@@ -56,7 +56,7 @@ def seen(q: FloatArray, base_pose: BasePose) -> list[float]:
     "base_pose", [BasePose(-0.1, 0.3, 0.06, 0.0), BasePose(-0.4, 0.1, 0.06, 0.7)], ids=["straight", "turned"]
 )
 def test_the_fingertip_follows_the_path(base_pose: BasePose) -> None:
-    trajectory = lifted(PATH, SCENE.initial_state(), base_pose)
+    trajectory = planned(PATH, SCENE.initial_state(), base_pose)
     assert isinstance(trajectory, JointTrajectory)
     assert trajectory.positions[0].tolist() == ARM.home.tolist()
     for q, pose in zip(trajectory.positions, trajectory.gripper.poses, strict=True):
@@ -73,7 +73,7 @@ def test_the_fingertip_follows_the_path(base_pose: BasePose) -> None:
 
 def test_it_rests_at_corners_and_keeps_to_speeds_and_accelerations() -> None:
     base_pose, options = BasePose(-0.4, 0.1, 0.06, 0.7), PlanarMotionOptions()
-    trajectory = lifted(PATH, SCENE.initial_state(), base_pose)
+    trajectory = planned(PATH, SCENE.initial_state(), base_pose)
     assert isinstance(trajectory, JointTrajectory)
     phases = trajectory.gripper.phases
     changes = [0, *(leg for leg in range(1, len(phases)) if phases[leg] is not phases[leg - 1]), len(phases)]
@@ -96,7 +96,7 @@ def test_it_goes_on_from_where_the_joints_are() -> None:
     joints = np.array([0.2, -0.05, 0.02])
     arm = ArmState(np.zeros(3), 0.01, 0.005, joints)
     start = State(SCENE.initial_state().poses, SCENE.initial_state().conditions, arm=arm)
-    trajectory = lifted(PATH, start, base_pose)
+    trajectory = planned(PATH, start, base_pose)
     assert isinstance(trajectory, JointTrajectory)
     assert np.allclose(trajectory.positions[0], joints)
     assert trajectory.gripper.openings[0] == 0.005
@@ -106,7 +106,7 @@ def test_it_goes_on_from_where_the_joints_are() -> None:
 def test_beyond_the_joints_it_says_where_and_why() -> None:
     poses = np.array([[-0.05, 0.2, 0.0], [0.3, 0.2, 0.0], [0.3, 2.9, 0.0]])
     path = GripperPath(poses, (Phase.INSERT, Phase.SWEEP), RULES)
-    found = lifted(path, SCENE.initial_state(), BasePose(-0.1, 0.3, 0.06, 0.0))
+    found = planned(path, SCENE.initial_state(), BasePose(-0.1, 0.3, 0.06, 0.0))
     assert isinstance(found, Unreachable)
     approach = math.hypot(0.05, 0.1)
     assert found.where == pytest.approx(approach + 0.35)
@@ -118,7 +118,7 @@ def test_a_path_that_goes_nowhere_is_a_short_rest() -> None:
     arm = ArmState(np.array([-0.05, 0.2, 0.0]), 0.0)
     start = State(SCENE.initial_state().poses, SCENE.initial_state().conditions, arm=arm)
     path = GripperPath(np.array([arm.gripper, arm.gripper]), (Phase.INSERT,), RULES)
-    trajectory = lifted(path, start, BasePose(-0.1, 0.3, 0.06, 0.0))
+    trajectory = planned(path, start, BasePose(-0.1, 0.3, 0.06, 0.0))
     assert isinstance(trajectory, JointTrajectory)
     assert 0.0 < trajectory.duration < 0.1
     assert np.ptp(trajectory.positions, axis=0).max() == 0.0

@@ -99,7 +99,7 @@ def failed_plan() -> Plan:
     tree.child(ROOT, steps[1].action, ends[1], steps[1].decision, closed="something spilled")
     second = tree.child(first, steps[1].action, ends[1], steps[1].decision)
     tree.child(second, steps[0].action, replace(ends[1], state=steps[1].after), closed="nothing moved")
-    return Plan(Status.FAILED, "no sweep fits", tree.explored(second))
+    return tree.plan(second, Status.FAILED, "no sweep fits")
 
 
 def mounted(*, by_joints: bool = False) -> MountedArm:

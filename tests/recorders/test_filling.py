@@ -10,9 +10,9 @@ from phframe.core import FloatArray
 from phframe.recorders.filling import filling
 
 
-def regular(corners: int, size: float, turned: float, stretch: float) -> FloatArray:
+def regular(corners: int, size: float, turned: float, scale: float) -> FloatArray:
     angles = turned + 2 * math.pi * np.arange(corners) / corners
-    return size * np.column_stack([stretch * np.cos(angles), np.sin(angles)])
+    return size * np.column_stack([scale * np.cos(angles), np.sin(angles)])
 
 
 def distance_to(lines: list[FloatArray], points: FloatArray) -> FloatArray:
@@ -26,9 +26,9 @@ def distance_to(lines: list[FloatArray], points: FloatArray) -> FloatArray:
 @settings(max_examples=40, deadline=None)
 @given(st.integers(4, 8), st.floats(0.01, 1.0), st.floats(0.0, 6.0), st.floats(1.0, 4.0), st.integers(6, 30))
 def test_thick_lines_cover_a_polygon_and_nothing_else(
-    corners: int, size: float, turned: float, stretch: float, lines: int
+    corners: int, size: float, turned: float, scale: float, lines: int
 ) -> None:
-    vertices = regular(corners, size, turned, stretch)
+    vertices = regular(corners, size, turned, scale)
     drawn, half = filling(vertices, lines)
     inside = np.random.default_rng(0).dirichlet(np.ones(corners), 200) @ vertices
     edges = [np.vstack([vertices, vertices[:1]])]

@@ -131,7 +131,7 @@ def test_the_robot_moves_by_its_joints_where_the_states_have_them(made: Recorded
     np.testing.assert_allclose(stage.data.body("arm/fingertip").xpos, arm.base_pose.pose[:3], atol=1e-9)
 
 
-def test_what_lies_is_drawn_lying() -> None:
+def test_what_lies_is_drawn_toppled() -> None:
     initial, tilted = SCENE.initial_state(), SCENE.initial_state().poses.copy()
     tilted[2] = [0.3, 0.2, 0.03, np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0]
     stage = staged()

@@ -113,7 +113,7 @@ def test_an_action_that_begins_where_the_arm_is_needs_no_approach() -> None:
         assert trajectory.phases == action.path.phases
 
 
-def test_the_scenes_mount_counts_before_the_arms_own() -> None:
+def test_the_scenes_base_pose_counts_before_the_arms_own() -> None:
     mounted = replace(BASIC, base_poses={"planar": BasePose(-0.3, 0.1, 0.06, 0.0)})
     with PlanningWorld(WorldSpec(mounted)) as world:
         trajectory = world.plan_trajectory(mounted.initial_state(), JAM)
@@ -160,7 +160,7 @@ class Serving(PlanarArm):
 
 
 @pytest.mark.needs_mujoco
-def test_a_mount_that_cannot_serve_the_shelf_is_refused_where_joints_are_driven(tmp_path: Path) -> None:
+def test_a_base_pose_that_cannot_serve_the_shelf_is_refused_where_joints_are_driven(tmp_path: Path) -> None:
     pytest.importorskip("mujoco")
     (tmp_path / "serving.py").write_text(SERVING)
     arm = f"{tmp_path / 'serving.py'}:Serving"

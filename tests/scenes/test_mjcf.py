@@ -106,7 +106,7 @@ def test_published_scenes_stay_at_rest() -> None:
 
 
 @pytest.mark.parametrize("name", ["planar", pytest.param("baxter", marks=pytest.mark.needs_baxter)])
-def test_an_arm_stands_parked_at_its_mount_and_holds_still(name: str) -> None:
+def test_an_arm_stands_parked_at_its_base_pose_and_holds_still(name: str) -> None:
     mujoco = pytest.importorskip("mujoco")
     if name == "baxter":
         pytest.importorskip("pinocchio")

@@ -73,7 +73,7 @@ def _suites(console: Console, given: argparse.Namespace, scenes: Sequence[str]) 
             tallies = [tally(planner, suite, [o for o in outcomes if o.suite == suite]) for suite in PUBLISHED]
             tallies.append(tally(planner, "all", outcomes))
             _print_outcomes(console, planner, tallies, outcomes)
-            rows += [{**asdict(t), "choices": deviations(outcomes) if t.suite == "all" else {}} for t in tallies]
+            rows += [{**asdict(t), "deviations": deviations(outcomes) if t.suite == "all" else {}} for t in tallies]
     return rows
 
 

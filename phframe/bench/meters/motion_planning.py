@@ -48,11 +48,11 @@ def measure_motion_planning(name: str, backend: str) -> MotionPlanning:
         plan = create(Kind.PLANNER, "phia").plan(task)
         spent = time.perf_counter() - began
     with ExecutionWorld(WorldSpec(scene, backend, ARM)) as world:
-        times, unreachable = _lifted(world, scene.initial_state(), plan)
+        times, unreachable = _joint_trajectories(world, scene.initial_state(), plan)
     return MotionPlanning(name, spent, times, unreachable)
 
 
-def _lifted(world: ExecutionWorld, state: State, plan: Plan) -> tuple[tuple[float, ...], int]:
+def _joint_trajectories(world: ExecutionWorld, state: State, plan: Plan) -> tuple[tuple[float, ...], int]:
     times, unreachable, arm = [], 0, None
     for action, expected in zip(plan.actions, plan.expected, strict=True):
         began = time.perf_counter()

@@ -43,7 +43,7 @@ class Tally:
         clean: In how many of those nothing toppled or spilled and no wall was touched.
         actions: Mean number of pushes, of the scenes that were retrieved.
         planning_time: Median wall time (s).
-        motion_planning_time: Median wall time of lifting actions to joints (s).
+        motion_planning_time: Median wall time of planning joint trajectories (s).
         execution_time: Median simulated time (s), of the scenes that were retrieved.
     """
 

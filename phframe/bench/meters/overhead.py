@@ -31,7 +31,7 @@ class Overhead:
         scene: Its name.
         planning: Wall time of planning (s), the least of some repeats.
         bare: Wall time of the bare loop over all motions that were simulated, from end to end (s), likewise.
-        bare_stepped: Of just the steps that planning took, timed in place (s): it passes over what is free.
+        bare_stepped: Of just the steps that planning took, timed in place (s): it fast-forwards while nothing is touched.
         steps: Steps of those motions.
         stepped: Steps that planning really took.
     """

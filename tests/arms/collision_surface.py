@@ -1,4 +1,4 @@
-"""Where the covers of an arm are, sampled from its URDF alone, and how far they stand out beside the gripper's axis."""
+"""Where the collision geometry of an arm is, sampled from its URDF alone, and how far it stands out beside the gripper's axis."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from phframe.urdf.reader import read_robot
 from phframe.urdf.solids import Solid, rotation
 
 
-class Covers:
-    """The covers of an arm as points.
+class CollisionSurface:
+    """The surface of an arm's collision geometry as points.
 
     Args:
         arm: The arm.
@@ -35,7 +35,7 @@ class Covers:
         self._arm = arm
 
     def in_shelf(self, q: FloatArray) -> FloatArray:
-        """Points ``(n, 3)`` on the covers in the shelf frame for joint values ``(dof,)``, fingers closed."""
+        """Points ``(n, 3)`` on the surface in the shelf frame for joint values ``(dof,)``, fingers closed."""
         values = np.zeros(self._model.nq)
         values[self._rows] = q
         pinocchio.framesForwardKinematics(self._model, self._data, values)
