@@ -18,7 +18,7 @@ SOLVE = "phframe solve vieira/basic"
 PICTURES = {
     "basic-in-rerun.png": (
         f"{SOLVE} --rerun --out {{scratch}}/run",
-        "python -m docs.screenshot {scratch}/run/recording.rrd {picture} --at 0.066",
+        "python -m docs.screenshot {scratch}/run/recording.rrd {picture} --at 0.17",
     ),
     "basic-decisions.png": ("python docs/examples/draw_decisions.py {picture}",),
     "basic-in-mujoco.webp": (f"{SOLVE} --backend mujoco --no-rerun --out {{scratch}}/run --video {{picture}}",),

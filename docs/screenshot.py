@@ -29,7 +29,7 @@ FLAGS = (
 )
 """Alone with the page, draw by software, listen on two pipes."""
 WIDTH, HEIGHT = 1760, 1044
-TIMELINE = 0.165, 0.88
+TIMELINE = 0.167, 0.8825
 """Where the collapsed time panel's line begins and ends, in fractions of the width."""
 DRAWN, STEADY = 40, 5
 """Seconds: before the viewer has drawn in software, and between two looks."""
@@ -63,7 +63,7 @@ def take(recording: Path, picture: Path, theme: str = "dark", at: float = 0.0) -
         page.open(f"{address}&renderer=webgl&hide_welcome_screen=1&theme={theme}")
         time.sleep(DRAWN)
         low, high = TIMELINE
-        picture.write_bytes(page.at_rest((WIDTH * (low + at * (high - low)), HEIGHT - 15.0)))
+        picture.write_bytes(page.at_rest(WIDTH * (low + at * (high - low))))
 
 
 @contextmanager
@@ -132,21 +132,27 @@ class _Browser:
         self._do("Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, deviceScaleFactor=1, mobile=False)
         self._do("Page.navigate", url=address)
 
-    def click(self, x: float, y: float) -> None:
-        """With the left button, at pixels from the top left."""
-        for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
-            self._do("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
-        self._do("Input.dispatchMouseEvent", type="mouseMoved", x=WIDTH / 2, y=2)
+    def drag(self, x: float, y: float) -> None:
+        """With the left button, a little to the right, up to pixels from the top left; then away from everything."""
+        for kind, before in (("mouseMoved", 12), ("mousePressed", 12), ("mouseMoved", 6), ("mouseMoved", 0)):
+            self._mouse(kind, x - before, y)
+            time.sleep(0.3)
+        self._mouse("mouseReleased", x, y)
+        self._mouse("mouseMoved", WIDTH / 2, 2.0)
 
-    def at_rest(self, moment: tuple[float, float]) -> bytes:
-        """The picture (PNG) after a click on the timeline, which also pauses, once several looks in a row see the same.
+    def _mouse(self, kind: str, x: float, y: float) -> None:
+        button = {} if kind == "mouseMoved" else {"button": "left", "clickCount": 1}
+        self._do("Input.dispatchMouseEvent", type=kind, x=x, y=y, buttons=1, **button)
+
+    def at_rest(self, moment: float) -> bytes:
+        """The picture (PNG) when the time is dragged to so many pixels, which pauses, once several looks in a row see the same.
 
         Raises:
             RuntimeError: If it goes on changing.
         """
         seen = [b""] * LOOKS
         for _ in range(MOST):
-            self.click(*moment)  # again and again: at first there may be no timeline yet
+            self.drag(moment, HEIGHT - PANEL / 2)  # again and again: at first there may be no timeline yet
             time.sleep(STEADY)
             seen = [*seen[1:], self._picture(HEIGHT - TOP - PANEL)]  # the time panel never quite comes to rest
             if len(set(seen)) == 1:

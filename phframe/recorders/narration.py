@@ -28,8 +28,8 @@ def plan_line(plan: Plan, number: int) -> str:
 def decision_line(step: Step, number: int) -> str:
     """An action and why it was chosen."""
     decision = PushDecision.of(step.decision)
-    parts = [*([decision.why] if decision.why else []), *_crowd(decision), *_grouping(decision)]
-    return f"{number}. {step.action.name}" + (f" ({'; '.join(parts)})" if parts else "")
+    parts = [*_crowd(decision), *_grouping(decision)] or [decision.why]
+    return f"{number}. {step.action.name}" + (f" ({'; '.join(parts)})" if any(parts) else "")
 
 
 def outcome_line(step: Step, scene: Scene, number: int) -> str:
