@@ -83,7 +83,7 @@ def _outcome(episode: Episode) -> dict[str, Any]:
 
 def _sentence(found: dict[str, Any]) -> str:
     before, after = (
-        f"{each['status']} with {each['actions']} pushes and {each['replans']} replans"
+        f"{each['status']}, pushes {each['actions']}, replans {each['replans']}"
         for each in (found["before"], found["after"])
     )
     if found["compared"] == "outcome":
