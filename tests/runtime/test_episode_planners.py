@@ -11,6 +11,7 @@ from phframe.core import (
     Action,
     ActionKind,
     Episode,
+    Loop,
     Motion,
     Options,
     Plan,
@@ -119,6 +120,8 @@ def test_a_grasp_that_misses_is_reached_or_tried_again() -> None:
     assert [step.action for step in episode.steps[:-1]] == [each.action for each in planner.tasks[-1].rejected]
     assert (episode.status, episode.reason) == (Status.REACHED, "the target was not held")
     assert all(step.after.held is None for step in episode.steps)
+    once = run(ExecutionWorld(WorldSpec(scene_of((0.4, 0.3)))), Misses(), loop=Loop(max_replans=0))
+    assert (len(once.plans), once.replans, once.status) == (1, 0, Status.REACHED)
 
 
 @pytest.mark.parametrize("planner", [OnlyClears(PushingOptions()), Noting()])
