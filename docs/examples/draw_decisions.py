@@ -68,4 +68,4 @@ def _outline(shape: Shape, pose: FloatArray) -> FloatArray:
 
 
 if __name__ == "__main__":
-    draw(phframe.solve("vieira/basic"), sys.argv[1])
+    draw(phframe.solve("vieira/basic"), sys.argv[1] if len(sys.argv) > 1 else "decisions.png")

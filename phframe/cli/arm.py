@@ -2,69 +2,35 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated
 
 import typer
 
 from phframe.cli import completion
-from phframe.cli.exit_codes import ExitCode
+from phframe.cli.flags import Arm, finite, flag
+from phframe.cli.group import show_help
 from phframe.cli.options import only_parts, parse_options
 
-app = typer.Typer(help="What concerns one arm: what it reaches.", invoke_without_command=True)
+app = typer.Typer(help="What concerns one arm: what it reaches.", invoke_without_command=True, callback=show_help)
 
-
-@app.callback()
-def _top(context: typer.Context) -> None:
-    if context.invoked_subcommand is None:
-        typer.echo(context.get_help())
-        raise typer.Exit(ExitCode.BAD_INPUT)
-
-
-def _finite(values: tuple[float, ...] | None) -> tuple[float, ...] | None:
-    if values is not None and not all(map(math.isfinite, values)):
-        raise typer.BadParameter("all four must be finite numbers.")
-    return values
-
-
-Arm = Annotated[
-    str,
-    typer.Option(
-        "--arm",
-        metavar="NAME",
-        help="The robot arm: a name ('phframe arms') or ./mine.py:Mine.",
-        autocompletion=completion.arms,
-    ),
-]
 SceneSpec = Annotated[
-    str,
-    typer.Option(
-        "--scene",
-        metavar="SCENE",
-        help="Whose shelf: a scene such as vieira/basic, or a scene file.",
-        autocompletion=completion.scenes,
-    ),
+    str, flag("SCENE", "Whose shelf: a scene such as vieira/basic, or a scene file.", autocompletion=completion.scenes)
 ]
 BasePose = Annotated[
     tuple[float, float, float, float] | None,
-    typer.Option(
-        "--mount",
-        metavar="X Y Z YAW",
-        callback=_finite,
-        help="Where the base stands in the shelf frame (m, rad).",
-        show_default="as the scene says, else the arm's own",
+    flag(
+        "X Y Z YAW",
+        "Where the base stands in the shelf frame (m, rad).",
+        "as the scene says, else the arm's own",
+        callback=finite,
     ),
 ]
-Out = Annotated[
-    str | None,
-    typer.Option("--out", metavar="PNG", help="Picture of the map to write (extra 'plots').", show_default="none"),
-]
+Out = Annotated[str | None, flag("PNG", "Picture of the map to write (extra 'plots').", "none")]
 OptionTexts = Annotated[
     list[str] | None,
-    typer.Option(
-        "--option",
-        metavar="KEY=VALUE",
-        help="An option of the arm or of the suite of scenes: arm.link_width=0.1, scenes.depth=0.6. Repeatable.",
+    flag(
+        "KEY=VALUE",
+        "An option of the arm or of the suite of scenes: arm.link_width=0.1, scenes.depth=0.6. Repeatable.",
         autocompletion=completion.options,
     ),
 ]
@@ -79,7 +45,7 @@ Force = Annotated[bool, typer.Option("--force", help="Overwrite a picture that i
 def reach(
     arm: Arm = "planar",
     scene: SceneSpec = "vieira/basic",
-    base_pose: BasePose = None,
+    mount: BasePose = None,
     out: Out = None,
     option: OptionTexts = None,
     as_json: Json = False,
@@ -90,6 +56,6 @@ def reach(
     The gripper is level, in its plane above the board, and turned by no more than 30 degrees.
     """
     options = only_parts(parse_options(option or ()), "arm", "scenes")
-    from phframe.cli.reaching import ReachRequest, run  # heavy, and not needed where the options are wrong
+    from phframe.cli.reaching import run  # heavy, and not needed where the options are wrong
 
-    run(ReachRequest(arm, scene, base_pose, out, options, as_json, force))
+    run(arm, scene, mount, out, options, as_json=as_json, force=force)

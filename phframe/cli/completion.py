@@ -13,19 +13,9 @@ from phframe.cli.options import PARTS
 Offer = list[tuple[str, str]]
 
 
-def _names(kind: str) -> Callable[[str], Offer]:
-    def names(incomplete: str) -> Offer:
-        return _quietly(lambda: _registered(kind), incomplete)
-
-    return names
-
-
-planners = _names("planner")
-backends = _names("backend")
-arms = _names("arm")
-topology = _names("topology")
-goals = _names("goal")
-suites = _names("scenes")
+def names(kind: str) -> Callable[[str], Offer]:
+    """What offers the registered names of a kind of extension, such as ``planner``."""
+    return lambda incomplete: _quietly(lambda: _registered(kind), incomplete)
 
 
 def scenes(incomplete: str) -> Offer:

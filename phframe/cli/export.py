@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from phframe.cli import completion
+from phframe.cli.flags import flag, part
 from phframe.cli.options import only_parts, parse_options
 
 What = Annotated[
@@ -28,35 +29,25 @@ Format = Annotated[
         autocompletion=completion.export_formats,
     ),
 ]
-Out = Annotated[
-    str, typer.Option("--out", metavar="FILE", help="File, or folder for urdf-parts, to write; - is standard output.")
-]
+Out = Annotated[str, flag("FILE", "File, or folder for urdf-parts, to write; - is standard output.")]
 Arm = Annotated[
     str | None,
-    typer.Option(
-        "--arm",
-        metavar="NAME",
-        help="An arm to put beside the scene, for mjcf and urdf-parts: a name ('phframe arms') or ./mine.py:Mine; for json and csv "
+    part(
+        "arm",
+        "An arm to put beside the scene, for mjcf and urdf-parts: a name ('phframe arms') or ./mine.py:Mine; for json and csv "
         "what the episode's arm is, where that is a class in a file.",
-        show_default="none",
-        autocompletion=completion.arms,
+        "none",
     ),
 ]
 OptionTexts = Annotated[
     list[str] | None,
-    typer.Option(
-        "--option",
-        metavar="KEY=VALUE",
-        help="An option of the arm or of the suite of scenes: arm.link_width=0.1, scenes.count=12. Repeatable.",
+    flag(
+        "KEY=VALUE",
+        "An option of the arm or of the suite of scenes: arm.link_width=0.1, scenes.count=12. Repeatable.",
         autocompletion=completion.options,
     ),
 ]
-Number = Annotated[
-    int | None,
-    typer.Option(
-        "--action", metavar="INTEGER", min=1, help="Only this action's trajectory, from 1.", show_default="all"
-    ),
-]
+Number = Annotated[int | None, flag("INTEGER", "Only this action's trajectory, from 1.", "all", min=1)]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite files that are there.")]
 
 

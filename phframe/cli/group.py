@@ -63,3 +63,10 @@ class CommandGroup(TyperGroup):
         if ctx.resilient_parsing and name not in self.list_commands(ctx):
             return None, None, args[1:]
         return name, plugin_commands.load_command(name, self.commands), args[1:]
+
+
+def show_help(context: typer.Context) -> None:
+    """Show the help of a group of commands that is given none of them, which is no success."""
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help())
+        raise typer.Exit(ExitCode.BAD_INPUT)

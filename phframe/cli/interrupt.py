@@ -10,7 +10,7 @@ import _thread
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from threading import Timer
+from time import sleep
 from typing import Any
 
 _AGAIN_AFTER = 0.005  # seconds: by then the callback has usually returned, else the same happens once more
@@ -25,12 +25,20 @@ def dependable_interrupts() -> Iterator[None]:
         if not issubclass(swallowed.exc_type, KeyboardInterrupt):
             before(swallowed)
             return
-        timer = Timer(_AGAIN_AFTER, _thread.interrupt_main)
-        timer.daemon = True
-        timer.start()
+        while True:
+            try:
+                _thread.start_new_thread(_interrupt_again, ())
+            except KeyboardInterrupt:  # on a busy machine the last one may come while this still runs: once more
+                continue
+            return
 
     sys.unraisablehook = raise_again
     try:
         yield
     finally:
         sys.unraisablehook = before
+
+
+def _interrupt_again() -> None:
+    sleep(_AGAIN_AFTER)
+    _thread.interrupt_main()

@@ -10,29 +10,29 @@ import typer
 from phframe.cli import completion
 
 _LISTINGS = {
-    "scenes": ("scenes", "suites of scenes, and their scenes", completion.suites, "scenes random"),
-    "planners": ("planner", "planners", completion.planners, "planners phia"),
-    "backends": ("backend", "physics backends", completion.backends, "backends --json"),
-    "arms": ("arm", "robot arms", completion.arms, "arms planar"),
-    "goals": ("goal", "goals: what an episode is to achieve", completion.goals, "goals retrieve"),
-    "topology": ("topology", "engines that compute persistence diagrams", completion.topology, "topology"),
+    "scenes": ("scenes", "suites of scenes, and their scenes", "scenes random"),
+    "planners": ("planner", "planners", "planners phia"),
+    "backends": ("backend", "physics backends", "backends --json"),
+    "arms": ("arm", "robot arms", "arms planar"),
+    "goals": ("goal", "goals: what an episode is to achieve", "goals retrieve"),
+    "topology": ("topology", "engines that compute persistence diagrams", "topology"),
 }
-"""Command: the kind in the registry, what is listed, the completion of names, an example."""
+"""Command: the kind in the registry, what is listed, an example."""
 
 
 def add_to(app: typer.Typer) -> None:
     """Add the listings to the command line."""
-    for title, (kind, what, complete, example) in _LISTINGS.items():
+    for title, (kind, what, example) in _LISTINGS.items():
         help_text = f"List the {what}.\n\nWith a NAME: describe one, and its options with their units and defaults."
-        command = _command(title, kind, complete)
+        command = _command(title, kind)
         app.command(title, help=help_text, epilog=f"Example: phframe {example}")(command)
 
 
-def _command(title: str, kind: str, complete: Callable[[str], list[tuple[str, str]]]) -> Callable[..., None]:
+def _command(title: str, kind: str) -> Callable[..., None]:
     name_argument = typer.Argument(
         metavar="[NAME]",
         help="What to describe: a name in the list, or a class in a file, ./mine.py:Mine.",
-        autocompletion=complete,
+        autocompletion=completion.names(kind),
         show_default="the whole list",
     )
     json_option = typer.Option("--json", help="Print one JSON object instead of a table.")

@@ -11,7 +11,7 @@ from phframe.cli import arm, listings, scene
 from phframe.cli.console import emit
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.export import export
-from phframe.cli.group import CommandGroup
+from phframe.cli.group import CommandGroup, show_help
 from phframe.cli.replay import replay
 from phframe.cli.solve import solve
 
@@ -41,9 +41,7 @@ def _top(
     if version:
         emit(_version())
         raise typer.Exit(ExitCode.SUCCESS)
-    if context.invoked_subcommand is None:
-        typer.echo(context.get_help())
-        raise typer.Exit(ExitCode.BAD_INPUT)
+    show_help(context)
 
 
 def _version() -> str:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import io
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from phframe.core import Scene
-from phframe.core.files import write_file
 from phframe.motion.reachability import YAWS, Reachability
+from phframe.urdf.solids import rotation
 
 SIZE, DOTS = (6.4, 6.4), 120
 """Of the picture: inches, and dots per inch."""
@@ -19,20 +18,14 @@ COLOURS = "#1f6f3f", "#6cb36c", "#c9dd7a"
 BEYOND, TARGET, OBJECT = "#e5b5ae", "#d62728", "#3b4a63"
 
 
-def draw_reach(reach: Reachability, scene: Scene, title: str, path: Path) -> None:
-    """Draw where the fingertip can be over a shelf, and at which yaw, with the scene's objects.
+def reach_picture(reach: Reachability, scene: Scene, title: str) -> bytes:
+    """Draw where the fingertip can be over a shelf, and at which yaw, with the scene's objects: the bytes of a PNG file.
 
     Args:
         reach: What is reached.
         scene: The shelf and its objects.
         title: Above the map; the fraction is put after it.
-        path: The PNG file to write.
     """
-    write_file(path, reach_picture(reach, scene, title))
-
-
-def reach_picture(reach: Reachability, scene: Scene, title: str) -> bytes:
-    """The picture of ``draw_reach`` as the bytes of a PNG file."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -91,13 +84,12 @@ def _draw_shelf(axes: Any, scene: Scene) -> None:
 
 
 def _draw_objects(axes: Any, scene: Scene) -> None:
-    from matplotlib.patches import Circle
+    from matplotlib.patches import Polygon
 
     for item in scene.objects:
         colour = TARGET if item.id == scene.target else OBJECT
-        axes.add_patch(
-            Circle(item.position, item.radius, facecolor=(1.0, 1.0, 1.0, 0.45), edgecolor=colour, lw=2, zorder=5)
-        )
+        outline = item.shape.outline @ rotation((0.0, 0.0, float(item.yaw)))[:2, :2].T + item.position
+        axes.add_patch(Polygon(outline, facecolor=(1.0, 1.0, 1.0, 0.45), edgecolor=colour, lw=2, zorder=5))
     x, y = scene.objects[scene.target_index].position
     axes.plot(x, y, marker="x", color=TARGET, zorder=6)
 

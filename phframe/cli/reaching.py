@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -24,58 +23,51 @@ PICTURE = ".png"
 """How the name of a picture ends."""
 
 
-@dataclass(frozen=True, slots=True)
-class ReachRequest:
-    """What ``phframe arm reach`` was asked for.
+def run(
+    arm_name: str,
+    scene_name: str,
+    mount: tuple[float, float, float, float] | None,
+    out: str | None,
+    options: Mapping[str, Mapping[str, str]],
+    *,
+    as_json: bool,
+    force: bool,
+) -> None:
+    """Print the fractions, and draw the map if that is wanted.
 
-    Attributes:
-        arm: A name, or a class in a file.
-        scene: A name, or a file.
-        base_pose: Where the base stands: x, y, z (m), yaw (rad); None: as the scene or the arm has it.
+    Args:
+        arm_name: A name, or a class in a file.
+        scene_name: A name, or a file.
+        mount: Where the base stands: x, y, z (m), yaw (rad); None: as the scene or the arm has it.
         out: The picture; None: none.
         options: As text, by part and key.
         as_json: Whether to print JSON.
         force: Whether a file may be overwritten.
-    """
-
-    arm: str
-    scene: str
-    base_pose: tuple[float, float, float, float] | None
-    out: str | None
-    options: Mapping[str, Mapping[str, str]]
-    as_json: bool
-    force: bool
-
-
-def run(wanted: ReachRequest) -> None:
-    """Print the fractions, and draw the map if that is wanted.
 
     Raises:
         PhframeError: If something asked for cannot be used; nothing was written then.
     """
-    output = _output(wanted)
-    scene = find_scene(wanted.scene, wanted.options["scenes"])
-    arm = create(Kind.ARM, wanted.arm, wanted.options["arm"])
-    own = scene.base_poses.get(wanted.arm) or arm.default_base_pose(scene.shelf)
-    base_pose = own if wanted.base_pose is None else BasePose(*wanted.base_pose)
+    output = _output(out, force=force)
+    scene = find_scene(scene_name, options["scenes"])
+    arm = create(Kind.ARM, arm_name, options["arm"])
+    own = scene.base_poses.get(arm_name) or arm.default_base_pose(scene.shelf)
+    base_pose = own if mount is None else BasePose(*mount)
     reach = reachability(scene.shelf, arm, base_pose)
     if output is not None:
         from phframe.cli.reach_map import reach_picture
 
-        output.write(reach_picture(reach, scene, f"{wanted.arm} in {scene.name}"))
-    fractions = _fractions(wanted.arm, scene.name, base_pose, reach)
-    emit(json.dumps(fractions, allow_nan=False) if wanted.as_json else _sentence(fractions))
+        output.write(reach_picture(reach, scene, f"{arm_name} in {scene.name}"))
+    fractions = _fractions(arm_name, scene.name, base_pose, reach)
+    emit(json.dumps(fractions, allow_nan=False) if as_json else _sentence(fractions))
 
 
-def _output(wanted: ReachRequest) -> Output | None:
-    if wanted.out is None:
+def _output(out: str | None, *, force: bool) -> Output | None:
+    if out is None:
         return None
-    if not wanted.out.lower().endswith(PICTURE):
-        raise InputError(
-            f"the map is a picture, and {path_shown(wanted.out)!r} is no name of one: give --out FILE{PICTURE}"
-        )
+    if not out.lower().endswith(PICTURE):
+        raise InputError(f"the map is a picture, and {path_shown(out)!r} is no name of one: give --out FILE{PICTURE}")
     require("matplotlib", "the map of what an arm reaches", "plots")
-    return Output(wanted.out, force=wanted.force)
+    return Output(out, force=force)
 
 
 def _fractions(arm: str, scene: str, base_pose: BasePose, reach: Reachability) -> dict[str, Any]:

@@ -8,55 +8,39 @@ from typing import Annotated
 import typer
 
 from phframe.cli import completion
-from phframe.cli.paths import path
+from phframe.cli.flags import flag, part, path
+
+_SAME = "as in the episode"
 
 EpisodePath = Annotated[
     Path,
     typer.Argument(
-        parser=path,
-        metavar="EPISODE",
-        help="A directory in runs/, or an episode.json.",
-        autocompletion=completion.runs,
+        parser=path, metavar="EPISODE", help="A directory in runs/, or an episode.json.", autocompletion=completion.runs
     ),
 ]
 Planner = Annotated[
     str | None,
-    typer.Option(
-        "--planner",
-        metavar="NAME",
-        help="Plan with this one instead; a class in a file is run only if it is given here, ./mine.py:Mine.",
-        show_default="as in the episode",
-        autocompletion=completion.planners,
+    part(
+        "planner",
+        "Plan with this one instead; a class in a file is run only if it is given here, ./mine.py:Mine.",
+        _SAME,
     ),
 ]
-Backend = Annotated[
-    str | None,
-    typer.Option(
-        "--backend",
-        metavar="NAME",
-        help="Carry the plans out in this physics instead.",
-        show_default="as in the episode",
-        autocompletion=completion.backends,
-    ),
+Backend = Annotated[str | None, part("backend", "Carry the plans out in this physics instead.", _SAME)]
+Arm = Annotated[str | None, part("arm", "Carry the plans out with this arm instead.", _SAME)]
+PlanBackend = Annotated[
+    str | None, part("backend", "Plan in this physics instead.", f"{_SAME}; as in solve if --backend replaces it")
 ]
-Arm = Annotated[
-    str | None,
-    typer.Option(
-        "--arm",
-        metavar="NAME",
-        help="Carry the plans out with this arm instead.",
-        show_default="as in the episode",
-        autocompletion=completion.arms,
-    ),
-]
+PlanArm = Annotated[str | None, part("arm", "Plan with this arm instead.", f"{_SAME}; the arm if --arm replaces it")]
+Topology = Annotated[str | None, part("topology", "Compute persistence diagrams with this instead.", _SAME)]
+Goal = Annotated[str | None, part("goal", "Achieve this instead.", _SAME)]
 Out = Annotated[
     Path | None,
-    typer.Option(
-        "--out",
+    flag(
+        "DIR",
+        "Directory for the files of the repetition; it must be new or empty.",
+        "none are written, with --view a new one in runs/",
         parser=path,
-        metavar="DIR",
-        help="Directory for the files of the repetition; it must be new or empty.",
-        show_default="none are written, with --view a new one in runs/",
     ),
 ]
 View = Annotated[bool, typer.Option("--view", help="Record the repetition and open it in the Rerun viewer.")]
@@ -68,15 +52,21 @@ def replay(
     planner: Planner = None,
     backend: Backend = None,
     arm: Arm = None,
+    plan_backend: PlanBackend = None,
+    plan_arm: PlanArm = None,
+    topology: Topology = None,
+    goal: Goal = None,
     out: Out = None,
     view: View = False,
     as_json: Json = False,
 ) -> None:
     """Repeat an episode from its file, and say whether it is the same, bit by bit.
 
-    With another planner, backend or arm the outcomes are compared. Exit code 0: the same; 1: not the same; 2: bad input;
+    With another part, such as a planner, the outcomes are compared. Exit code 0: the same; 1: not the same; 2: bad input;
     3: something not installed; 130: Ctrl-C.
     """
-    from phframe.cli.replaying import ReplayRequest, run  # heavy, and not needed where the command line is wrong
+    from phframe.cli.replaying import run  # heavy, and not needed where the command line is wrong
+    from phframe.core.run_spec import PARTS
 
-    raise typer.Exit(run(ReplayRequest(episode, planner, backend, arm, out, view, as_json)))
+    parts = dict(zip(PARTS, (planner, backend, arm, plan_backend, plan_arm, topology, goal), strict=True))
+    raise typer.Exit(run(episode, parts, out, view=view, as_json=as_json))

@@ -3,47 +3,33 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from phframe.cli.console import emit
 from phframe.cli.episodes import read_episode
 from phframe.cli.exit_codes import ExitCode
-from phframe.cli.run import RunOutput, carry_out, view
+from phframe.cli.run import RunOutput, carry_out, show_recording
 from phframe.cli.run_directory import RunDirectory
 from phframe.core import Episode
+from phframe.core.run_spec import PARTS
 from phframe.runtime.replay import differing_versions, first_difference, spec_of
 
 FORMAT = 1
 """Of the JSON object."""
 
 
-@dataclass(frozen=True, slots=True)
-class ReplayRequest:
-    """What ``phframe replay`` was asked for.
+def run(episode: Path, parts: Mapping[str, str | None], out: Path | None, *, view: bool, as_json: bool) -> int:
+    """Repeat an episode and print how the repetition compares.
 
-    Attributes:
+    Args:
         episode: A directory, or a file.
-        planner: Instead of the episode's; None: the same.
-        backend: Likewise.
-        arm: Likewise.
+        parts: What to take instead of the episode's; None: the same.
         out: Directory for the files; None: none, or a new one.
         view: Whether to open the viewer.
         as_json: Whether to print JSON.
-    """
-
-    episode: Path
-    planner: str | None
-    backend: str | None
-    arm: str | None
-    out: Path | None
-    view: bool
-    as_json: bool
-
-
-def run(wanted: ReplayRequest) -> int:
-    """Repeat an episode and print how the repetition compares.
 
     Returns:
         The exit code.
@@ -51,18 +37,18 @@ def run(wanted: ReplayRequest) -> int:
     Raises:
         PhframeError: If the episode cannot be read or repeated; nothing was written then.
     """
-    before = read_episode(wanted.episode)
-    spec = spec_of(before, planner=wanted.planner, backend=wanted.backend, arm=wanted.arm)
-    kept = wanted.out is not None or wanted.view
-    report = RunOutput(wanted.out, record=True if wanted.view else None if kept else False, view=wanted.view)
-    directory = RunDirectory(wanted.out, keep=kept)
+    before = read_episode(episode)
+    spec = spec_of(before, **parts)
+    kept = out is not None or view
+    report = RunOutput(out, record=True if view else None if kept else False, view=view)
+    directory = RunDirectory(out, keep=kept)
     carried = carry_out(spec, report, directory)
     if carried is None:
         return ExitCode.INTERRUPTED
-    same_parts = all(getattr(spec, part) == getattr(before.spec, part) for part in ("planner", "backend", "arm"))
+    same_parts = all(getattr(spec, part) == getattr(before.spec, part) for part in PARTS)
     found = _compared(before, carried[0], bits=same_parts)
-    emit(json.dumps(found, allow_nan=False) if wanted.as_json else _sentence(found))
-    view(report, directory)
+    emit(json.dumps(found, allow_nan=False) if as_json else _sentence(found))
+    show_recording(report, directory)
     return ExitCode.SUCCESS if found["same"] else ExitCode.OTHER_OUTCOME
 
 
@@ -97,7 +83,7 @@ def _outcome(episode: Episode) -> dict[str, Any]:
 
 def _sentence(found: dict[str, Any]) -> str:
     before, after = (
-        f"{each['status']} with {each['actions']} pushes and {each['replans']} replans"
+        f"{each['status']}, pushes {each['actions']}, replans {each['replans']}"
         for each in (found["before"], found["after"])
     )
     if found["compared"] == "outcome":

@@ -65,7 +65,7 @@ def run(spec: RunSpec, report: RunOutput) -> int:
         from phframe.cli.result_table import result_table
 
         show(result_table(summary, directory.path))
-    view(report, directory)
+    show_recording(report, directory)
     return ExitCode.SUCCESS if episode.status.is_success else ExitCode.OTHER_OUTCOME
 
 
@@ -94,7 +94,7 @@ def carry_out(spec: RunSpec, report: RunOutput, directory: RunDirectory) -> tupl
         directory.discard_if_empty()
 
 
-def view(report: RunOutput, directory: RunDirectory) -> None:
+def show_recording(report: RunOutput, directory: RunDirectory) -> None:
     """Open the viewer, if that is wanted."""
     if report.view and directory.path is not None and (directory.path / RECORDING).exists():
         open_viewer(directory.path / RECORDING)
@@ -130,7 +130,7 @@ def _tell_interrupted(partial: PartialEpisode, directory: RunDirectory) -> None:
     """Keep what there is, and say where."""
     from phframe.runtime.files import save
 
-    episode = partial.episode("interrupted by Ctrl-C")
+    episode = partial.episode
     if episode is not None and directory.path is not None:
         save(episode, directory.path / EPISODE)
         note(f"interrupted; what was recorded is in {directory.path}")

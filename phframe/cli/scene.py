@@ -6,33 +6,24 @@ from typing import Annotated
 
 import typer
 
-from phframe.cli.exit_codes import ExitCode
+from phframe.cli.flags import flag
+from phframe.cli.group import show_help
 
-app = typer.Typer(help="What concerns one scene: import it from another program.", invoke_without_command=True)
-
-
-@app.callback()
-def _top(context: typer.Context) -> None:
-    if context.invoked_subcommand is None:
-        typer.echo(context.get_help())
-        raise typer.Exit(ExitCode.BAD_INPUT)
-
+app = typer.Typer(
+    help="What concerns one scene: import it from another program.", invoke_without_command=True, callback=show_help
+)
 
 File = Annotated[str, typer.Argument(metavar="FILE", help="A MuJoCo XML file.")]
-Out = Annotated[str, typer.Option("--out", metavar="FILE", help="Scene file to write; - is standard output.")]
+Out = Annotated[str, flag("FILE", "Scene file to write; - is standard output.")]
 Target = Annotated[
     str | None,
-    typer.Option(
-        "--target",
-        metavar="NAME",
-        help="The body that is to be taken out.",
-        show_default="what the file says, else what is named like a target or goal, else the first",
+    flag(
+        "NAME",
+        "The body that is to be taken out.",
+        "what the file says, else what is named like a target or goal, else the first",
     ),
 ]
-Name = Annotated[
-    str | None,
-    typer.Option("--name", metavar="NAME", help="What the scene is to be called.", show_default="as the model"),
-]
+Name = Annotated[str | None, flag("NAME", "What the scene is to be called.", "as the model")]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite a file that is there.")]
 
 

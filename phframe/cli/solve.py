@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from phframe.cli import completion
+from phframe.cli.flags import Arm, finite, flag, part, path
 from phframe.cli.options import parse_options
-from phframe.cli.paths import path
-
-
-def _finite(value: float) -> float:
-    if not math.isfinite(value):
-        raise typer.BadParameter(f"{value} is not a finite number.")
-    return value
-
 
 SceneSpec = Annotated[
     str,
@@ -27,152 +19,79 @@ SceneSpec = Annotated[
         autocompletion=completion.scenes,
     ),
 ]
-PlannerSpec = Annotated[
+Planner = Annotated[
     str,
-    typer.Option(
-        "--planner",
-        metavar="NAME",
-        help="Who plans the pushes: a name ('phframe planners' lists them) or a class in a file, ./mine.py:Mine.",
-        autocompletion=completion.planners,
+    part(
+        "planner", "Who plans the pushes: a name ('phframe planners' lists them) or a class in a file, ./mine.py:Mine."
     ),
 ]
-BackendSpec = Annotated[
-    str,
-    typer.Option(
-        "--backend",
-        metavar="NAME",
-        help="The physics to act in: a name ('phframe backends') or ./mine.py:Mine.",
-        autocompletion=completion.backends,
-    ),
+Backend = Annotated[str, part("backend", "The physics to act in: a name ('phframe backends') or ./mine.py:Mine.")]
+PlanBackend = Annotated[
+    str | None, part("backend", "The physics to plan in.", "pymunk where the backend drives joints, else the backend")
 ]
-ArmSpec = Annotated[
-    str,
-    typer.Option(
-        "--arm",
-        metavar="NAME",
-        help="The robot arm: a name ('phframe arms') or ./mine.py:Mine.",
-        autocompletion=completion.arms,
-    ),
+PlanArm = Annotated[str | None, part("arm", "The robot arm to plan with.", "the arm")]
+Topology = Annotated[
+    str, part("topology", "What computes persistence diagrams: a name ('phframe topology') or ./mine.py:Mine.")
 ]
-PlanBackendSpec = Annotated[
-    str | None,
-    typer.Option(
-        "--plan-backend",
-        metavar="NAME",
-        help="The physics to plan in.",
-        show_default="pymunk where the backend drives joints, else the backend",
-        autocompletion=completion.backends,
-    ),
-]
-PlanArmSpec = Annotated[
-    str | None,
-    typer.Option(
-        "--plan-arm",
-        metavar="NAME",
-        help="The robot arm to plan with.",
-        show_default="the arm",
-        autocompletion=completion.arms,
-    ),
-]
-TopologySpec = Annotated[
-    str,
-    typer.Option(
-        "--topology",
-        metavar="NAME",
-        help="What computes persistence diagrams: a name ('phframe topology') or ./mine.py:Mine.",
-        autocompletion=completion.topology,
-    ),
-]
-GoalSpec = Annotated[
-    str,
-    typer.Option(
-        "--goal",
-        metavar="NAME",
-        help="What is to be achieved: a name ('phframe goals') or ./mine.py:Mine.",
-        autocompletion=completion.goals,
-    ),
-]
-Seed = Annotated[
-    int,
-    typer.Option("--seed", metavar="INTEGER", min=0, help="Seed of everything random; the same seed, the same result."),
-]
+Goal = Annotated[str, part("goal", "What is to be achieved: a name ('phframe goals') or ./mine.py:Mine.")]
+Seed = Annotated[int, flag("INTEGER", "Seed of everything random; the same seed, the same result.", min=0)]
 NoiseText = Annotated[
     str | None,
-    typer.Option(
-        "--noise",
-        metavar="KEY=VALUE,...",
-        help="What the planner believes against what is true: position=0.005 (standard deviation of where it sees an "
+    flag(
+        "KEY=VALUE,...",
+        "What the planner believes against what is true: position=0.005 (standard deviation of where it sees an "
         "object, m), friction=0.3 (relative standard deviation of its friction with the board), or both.",
-        show_default="none",
+        "none",
     ),
 ]
 OptionTexts = Annotated[
     list[str] | None,
-    typer.Option(
-        "--option",
-        metavar="KEY=VALUE",
-        help="An option of the planner, or with a prefix of another part: margin=0.02, backend.step=0.002, "
+    flag(
+        "KEY=VALUE",
+        "An option of the planner, or with a prefix of another part: margin=0.02, backend.step=0.002, "
         "arm.link_width=0.1, plan_backend.KEY, topology.KEY, goal.KEY, scenes.count=12. Repeatable. 'phframe planners NAME' and so "
         "on list them.",
         autocompletion=completion.options,
     ),
 ]
 TimeLimit = Annotated[
-    float,
-    typer.Option(
-        "--time-limit",
-        metavar="SECONDS",
-        min=0.001,
-        callback=_finite,
-        help="Longest planning time, all replans together (wall time, s).",
-    ),
+    float, flag("SECONDS", "Longest planning time, all replans together (wall time, s).", min=0.001, callback=finite)
 ]
 MaxReplans = Annotated[
     int,
-    typer.Option(
-        "--max-replans",
-        metavar="INTEGER",
+    flag(
+        "INTEGER",
+        "How often to plan anew at most: where reality differs from the plan, or the arm cannot do an action.",
         min=0,
-        help="How often to plan anew at most: where reality differs from the plan, or the arm cannot do an action.",
     ),
 ]
 Tolerance = Annotated[
     float,
-    typer.Option(
-        "--tolerance",
-        metavar="METRES",
+    flag(
+        "METRES",
+        "How far an object may be from where the plan expected it before planning anew (m).",
         min=0.0,
-        callback=_finite,
-        help="How far an object may be from where the plan expected it before planning anew (m).",
+        callback=finite,
     ),
 ]
 Simulations = Annotated[
-    int | None,
-    typer.Option(
-        "--simulations",
-        metavar="INTEGER",
-        min=0,
-        help="Most simulated actions for planning, all replans together.",
-        show_default="no limit",
-    ),
+    int | None, flag("INTEGER", "Most simulated actions for planning, all replans together.", "no limit", min=0)
 ]
 Workers = Annotated[
     int,
-    typer.Option(
-        "--workers",
-        metavar="INTEGER",
+    flag(
+        "INTEGER",
+        "Processes for planners that try many actions at once; the result is the same with any number.",
         min=1,
-        help="Processes for planners that try many actions at once; the result is the same with any number.",
     ),
 ]
 Out = Annotated[
     Path | None,
-    typer.Option(
-        "--out",
+    flag(
+        "DIR",
+        "Directory for episode.json, summary.json and recording.rrd; it must be new or empty.",
+        "a new one in runs/",
         parser=path,
-        metavar="DIR",
-        help="Directory for episode.json, summary.json and recording.rrd; it must be new or empty.",
-        show_default="a new one in runs/",
     ),
 ]
 Rerun = Annotated[
@@ -185,13 +104,12 @@ Rerun = Annotated[
 ]
 Video = Annotated[
     Path | None,
-    typer.Option(
-        "--video",
-        parser=path,
-        metavar="FILE",
-        help="Film the episode: FILE.mp4, or FILE.webp for a small moving picture, three times as quick. Replaced if it "
+    flag(
+        "FILE",
+        "Film the episode: FILE.mp4, or FILE.webp for a small moving picture, three times as quick. Replaced if it "
         "exists.",
-        show_default="no video",
+        "no video",
+        parser=path,
     ),
 ]
 View = Annotated[bool, typer.Option("--view", help="Open the recording in the Rerun viewer, too.")]
@@ -201,13 +119,13 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progres
 
 def solve(
     scene: SceneSpec = "vieira/basic",
-    planner: PlannerSpec = "phia",
-    backend: BackendSpec = "pymunk",
-    arm: ArmSpec = "planar",
-    plan_backend: PlanBackendSpec = None,
-    plan_arm: PlanArmSpec = None,
-    topology: TopologySpec = "ripser",
-    goal: GoalSpec = "retrieve",
+    planner: Planner = "phia",
+    backend: Backend = "pymunk",
+    arm: Arm = "planar",
+    plan_backend: PlanBackend = None,
+    plan_arm: PlanArm = None,
+    topology: Topology = "ripser",
+    goal: Goal = "retrieve",
     seed: Seed = 0,
     noise: NoiseText = None,
     option: OptionTexts = None,

@@ -58,7 +58,11 @@ class NewFile:
             folder.mkdir(parents=True, exist_ok=True)
             self.part = folder / f".{path.name[:_SHOWN]}.{secrets.token_hex(6)}.part"
             mode = 0o666 if self._before is None else 0o600  # what is secret is so from the beginning
-            os.close(os.open(self.part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode))
+            try:
+                os.close(os.open(self.part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode))
+            except BaseException:  # an interruption, too, leaves nothing
+                self.close()
+                raise
 
     def put(self) -> None:
         """Put what was written in its place.

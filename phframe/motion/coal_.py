@@ -10,7 +10,7 @@ import coal
 import numpy as np
 import pinocchio
 
-from phframe.core import ArmModel, BasePose, FloatArray, Scene, State
+from phframe.core import ArmModel, BasePose, Cylinder, FloatArray, Scene, Shape, State, UnknownShapeError
 from phframe.geometry.slabs import slabs
 from phframe.motion.collision_checking import CollisionContext
 from phframe.motion.pinocchio_ import se3
@@ -39,6 +39,9 @@ class CollisionModel:
         base_pose: Where the robot's base stands.
         wall_margin: Distance kept between the robot and the shelf (m).
         object_margin: Distance kept between the robot and objects that it must not touch (m).
+
+    Raises:
+        UnknownShapeError: If Coal has no primitive for the shape of an object.
     """
 
     def __init__(
@@ -51,7 +54,7 @@ class CollisionModel:
         object_margin: float,
     ) -> None:
         self.model, self.geometry = _reduced(arm.urdf(), {*description.joints, *description.fingers})
-        self.data, self.scene = self.model.createData(), scene
+        self.data = self.model.createData()
         self.rows, self._finger_rows = (
             np.array([self.model.idx_qs[self.model.getJointId(name)] for name in names])
             for names in (description.joints, description.fingers)
@@ -61,10 +64,7 @@ class CollisionModel:
         self.bodies = [str(self.model.frames[item.parentFrame].name) for item in self.geometry.geometryObjects]
         own = range(len(self.bodies))
         shelf = [self._add(slab.name, coal.Box(*slab.size), np.array(slab.center)) for slab in slabs(scene.shelf)]
-        self._objects = [
-            self._add(item.id, coal.Cylinder(item.shape.radius, item.shape.height), np.zeros(3))
-            for item in scene.objects
-        ]
+        self._objects = [self._add(item.id, _primitive(item.shape), np.zeros(3)) for item in scene.objects]
         self._pair_up(own, [*shelf, *self._objects], description)
         self._margins = dict.fromkeys(shelf, wall_margin) | dict.fromkeys(self._objects, object_margin)
         self._allowing: dict[frozenset[str], Any] = {}
@@ -133,7 +133,7 @@ class CollisionChecker:
     """
 
     def __init__(self, model: CollisionModel, context: CollisionContext) -> None:
-        self.context, self._model = context, model
+        self._model = model
         self._geometry, self._requests = model.placed(context.state), model.requests(context.allowed)
         self._values, self._rows = model.values(context.opening), model.rows
         self._manager = self._broad_phase()
@@ -195,6 +195,14 @@ def _collision_geometry(model: Any, urdf: str) -> Any:
         joint = model.frames[frame].parentJoint
         geometry.addGeometryObject(pinocchio.GeometryObject(f"hull/{number}", joint, frame, at, _convex(hull)))
     return geometry
+
+
+def _primitive(shape: Shape) -> Any:
+    match shape:
+        case Cylinder():
+            return coal.Cylinder(shape.radius, shape.height)
+        case _:
+            raise UnknownShapeError(shape, "collision checking")
 
 
 def _convex(hull: ConvexHull) -> Any:

@@ -90,7 +90,7 @@ def grasp_action(
                 action = reach.action(opening, radius, arm.min_opening)
                 if rejects(action) is None:
                     return Grasp(action, corridor, _deviations(fit, yaw_offset))
-                obstruction = Infeasible("the arm cannot do any grasp that nothing blocks")
+                obstruction = Infeasible("every grasp that nothing blocks was rejected")
             least = min(obstruction, least, key=_severity)
     return least
 

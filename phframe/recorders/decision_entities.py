@@ -12,6 +12,7 @@ from phframe.core.topology import FLOAT32_SLACK
 from phframe.pushing import Corridor, PushDecision
 from phframe.recorders import palette
 from phframe.recorders.filling import filling
+from phframe.recorders.object_solids import disc_radius
 from phframe.recorders.stream import Stream
 
 FILLING_LINES = 24
@@ -113,11 +114,12 @@ def _arrows(path: GripperPath) -> tuple[FloatArray, FloatArray]:
 def _log_expected(stream: Stream, scene: Scene, step: Step) -> None:
     """Thin circles where the plan expects the objects that are to move."""
     moves = np.zeros(len(scene.objects), dtype=bool)
-    centers = np.zeros((0, 2))
+    centers, radii = np.zeros((0, 2)), np.zeros(0)
     if step.expected is not None:
         moves = (step.expected.displacement(step.before) > NOTICEABLE) & step.expected.on_board
         centers = step.expected.positions[moves]
-    sizes = np.repeat(scene.radii[moves, None], 2, axis=1)
+        radii = np.array([disc_radius(item.shape) for item, each in zip(scene.objects, moves, strict=True) if each])
+    sizes = np.column_stack([radii, radii])
     circles = rr.Ellipses2D(centers=centers, half_sizes=sizes, line_radii=-0.7, colors=palette.EXPECTED, draw_order=8.0)
     stream.put("top/decision/expected", circles)
 

@@ -90,9 +90,11 @@ class Film:
         try:
             self._container = av.open(str(self._file.part), "w", format=kind.container, options=dict(kind.writing))
             self._stream = self._container.add_stream(kind.codec, rate=kind.rate, options=dict(kind.encoding))
-        except (OSError, ValueError) as error:
+        except BaseException as error:  # an interruption, too, leaves nothing
             self._file.close()
-            raise _unwritable(path, error) from None
+            if isinstance(error, OSError | ValueError):
+                raise _unwritable(path, error) from None
+            raise
         self._stream.width, self._stream.height, self._stream.pix_fmt = kind.width, kind.height, "yuv420p"
 
     def add(self, picture: NDArray[np.uint8]) -> None:

@@ -3,7 +3,7 @@
 from phframe.registry.catalogue import Broken, Catalogue, Entry
 from phframe.registry.extension import API_VERSION, Extension, Kind
 from phframe.registry.hookspec import hookimpl
-from phframe.registry.load import create, identify, load
+from phframe.registry.load import create, identify, load, refuse_stored_code
 from phframe.registry.manager import catalogue, discover
 from phframe.registry.versions import versions
 
@@ -20,5 +20,6 @@ __all__ = [
     "hookimpl",
     "identify",
     "load",
+    "refuse_stored_code",
     "versions",
 ]

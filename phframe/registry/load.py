@@ -55,12 +55,25 @@ def load(kind: Kind, part: Any, registered: Catalogue | None = None) -> Any:
     if not is_file(part):
         entry = (registered or catalogue()).find(kind, part)
         return _checked(kind, entry.name, _import(entry))
-    if isinstance(part, StoredName):
-        raise InputError(
-            f"the {kind} is {str(part)!r}, a class in a file, and code is not run because a file names it. If you trust "
-            f"it, give it yourself, as in --{kind} {part}"
-        )
+    refuse_stored_code(kind, part)
     return _checked(kind, part, load_from_file(part, INTERFACES.get(kind, object)))
+
+
+def refuse_stored_code(role: str, part: Any) -> None:
+    """See that no file has code run by naming it.
+
+    Args:
+        role: What the part is in a run, such as ``plan_arm``.
+        part: As for ``load``.
+
+    Raises:
+        InputError: If it is a class in a file, and that was read from a file.
+    """
+    if isinstance(part, StoredName) and is_file(part):
+        raise InputError(
+            f"the {role} is {str(part)!r}, a class in a file, and code is not run because a file names it. If you trust "
+            f"it, give it yourself, as in --{role.replace('_', '-')} {part}"
+        )
 
 
 def create(kind: Kind, part: Any, options: Mapping[str, Any] | None = None, registered: Catalogue | None = None) -> Any:

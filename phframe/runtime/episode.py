@@ -97,9 +97,18 @@ class _Run:
     def episode(self) -> Episode:
         arm = MountedArm(self._execution.arm, self._execution.base_pose, self._execution.by_joints)
         self._tell(lambda observer: observer.begin(self._scene, self._spec, arm))
-        self._note(self._execution.start())
-        status, reason = self._outcome()
-        episode = Episode(
+        try:
+            self._note(self._execution.start())
+            episode = self._so_far(*self._outcome())
+        except KeyboardInterrupt:
+            partial = self._so_far(Status.FAILED, "interrupted by Ctrl-C")
+            self._tell(lambda observer: observer.interrupted(partial))
+            raise
+        self._tell(lambda observer: observer.finished(episode))
+        return episode
+
+    def _so_far(self, status: Status, reason: str) -> Episode:
+        return Episode(
             self._scene,
             self._spec,
             status,
@@ -110,8 +119,6 @@ class _Run:
             self._execution.motion_planning_time + self._planning.motion_planning_time,
             versions_of(self._spec),
         )
-        self._tell(lambda observer: observer.finished(episode))
-        return episode
 
     def _note(self, state: State) -> None:
         """Note what the world is now, and what the robot sees of it."""

@@ -21,7 +21,7 @@ class ExecutionWorld(World):
 
     def plan_trajectory(self, state: State, action: Action) -> Trajectory | Unreachable:
         """As every world; where no motion planner says so, once the arm is known to reach each of the path's poses."""
-        if self.plans_motion:
+        if self.by_joints:
             return super().plan_trajectory(state, action)
         return self._refuse_pose(action) or super().plan_trajectory(state, action)
 

@@ -47,5 +47,8 @@ class Observer:
     def finished(self, episode: Episode) -> None:
         """The episode is over."""
 
+    def interrupted(self, episode: Episode) -> None:
+        """The episode was interrupted by Ctrl-C: what there is of it. It goes no further."""
+
     def close(self) -> None:
         """Nothing more will come, whether the episode is over or was interrupted."""

@@ -67,7 +67,9 @@ class PlanningWorld(World):
         if self._pool is None:
             context = get_context("spawn")
             self._pool = ProcessPoolExecutor(self._workers, context, _Worker.begin, (self.spec,))
-        return list(self._pool.map(_Worker.apply, pairs, repeat(stop), chunksize=1))
+        results = list(self._pool.map(_Worker.apply, pairs, repeat(stop), chunksize=1))
+        self.motion_planning_time += sum(seconds for _, seconds in results)
+        return [transition for transition, _ in results]
 
     def task(
         self,
@@ -137,5 +139,7 @@ class _Worker:
         cls.world = PlanningWorld(spec)
 
     @classmethod
-    def apply(cls, pair: Pair, stop: Stop | None) -> Transition:
-        return cls.world.apply(*pair, stop)
+    def apply(cls, pair: Pair, stop: Stop | None) -> tuple[Transition, float]:
+        """The transition, and how long motion planning took for it (s)."""
+        before = cls.world.motion_planning_time
+        return cls.world.apply(*pair, stop), cls.world.motion_planning_time - before

@@ -41,12 +41,16 @@ def spec_of(episode: Episode, **others: Any) -> RunSpec:
     Args:
         episode: The episode, perhaps read from a file.
         others: Parts to take instead, such as ``backend="mujoco"``, with their default options; None: the same part.
+            Where the episode was planned with the same arm or backend, so is the repetition, or, where that is another
+            one, with what a new run would plan with.
     """
     spec = episode.spec
     wanted = {part: value for part, value in others.items() if value is not None}
     changed = {part for part, value in wanted.items() if value != getattr(spec, part)}
-    if "arm" in changed and spec.plan_arm == spec.arm:
-        wanted["plan_arm"] = None
+    for part, plan_part in (("arm", "plan_arm"), ("backend", "plan_backend")):
+        if part in wanted and plan_part not in wanted and getattr(spec, plan_part) == getattr(spec, part):
+            wanted[plan_part] = None if part in changed else wanted[part]
+            changed |= {plan_part} if part in changed else set()
     options = {group: given for group, given in spec.options.items() if group not in {*changed, "scenes"}}
     return replace(spec, scene=episode.scene, options=options, **wanted)
 

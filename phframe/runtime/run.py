@@ -9,7 +9,7 @@ from typing import Any
 
 from phframe.core import Episode, Goal, JointTrajectory, Options, Planner, RunSpec, Scene, TopologyEngine
 from phframe.core.run_spec import PARTS
-from phframe.registry import Kind, create, identify, load
+from phframe.registry import Kind, create, identify, load, refuse_stored_code
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.noise import Noise
@@ -112,6 +112,7 @@ def _identified(spec: RunSpec) -> dict[str, tuple[Any, Mapping[str, Any]]]:
     found = {}
     for part in PARTS:
         value, options = getattr(spec, part), spec.options.get(part, {})
+        refuse_stored_code(part, value)
         found[part] = (None, options) if value is None else identify(_kind(part), value, options)
     return found
 

@@ -14,6 +14,7 @@ from phframe.core import (
     MOUTH_CLEARANCE,
     Action,
     ArmModel,
+    BasePose,
     Contacts,
     GripperPath,
     IncompatibleError,
@@ -36,7 +37,7 @@ from phframe.core import (
     time_path,
 )
 from phframe.core.gripper_path import LEAST_AHEAD
-from phframe.registry import Kind, create, load
+from phframe.registry import Kind, create, identify, load
 
 APPROACH_SPEED = 0.5
 """Of the fingertip outside the shelf, where nothing is in the way (m/s)."""
@@ -76,7 +77,7 @@ class World:
         spec: What to build.
 
     Attributes:
-        motion_planning_time: Wall time spent on motion planning so far (s).
+        motion_planning_time: Wall time spent on motion planning so far (s), in workers too.
 
     Raises:
         UnknownNameError: If the backend or the arm does not exist.
@@ -88,7 +89,7 @@ class World:
     def __init__(self, spec: WorldSpec) -> None:
         self.spec, self.scene = spec, spec.scene
         self.arm: ArmModel[Any] = create(Kind.ARM, spec.arm, spec.arm_options)
-        self.base_pose = spec.scene.base_poses.get(spec.arm) or self.arm.default_base_pose(spec.scene.shelf)
+        self.base_pose = _named_base_pose(spec) or self.arm.default_base_pose(spec.scene.shelf)
         backend: type[Physics[Any]] = load(Kind.BACKEND, spec.backend)
         options = backend.options_type.parse(spec.backend_options, f"backend {spec.backend}")
         self._motion_planner = None
@@ -123,13 +124,8 @@ class World:
             )
 
     @property
-    def plans_motion(self) -> bool:
-        """Whether a motion planner finds joints for the gripper's paths."""
-        return self._motion_planner is not None
-
-    @property
     def by_joints(self) -> bool:
-        """Whether the engine drives the arm's joints, not its outline."""
+        """Whether the engine drives the arm's joints, which a motion planner finds, not its outline."""
         return self._motion_planner is not None
 
     def plan_trajectory(self, state: State, action: Action) -> Trajectory | Unreachable:
@@ -213,3 +209,9 @@ class World:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+def _named_base_pose(spec: WorldSpec) -> BasePose | None:
+    """Where the scene has the arm stand, if it names it; a class or an object bears the name it is registered by."""
+    name, _ = identify(Kind.ARM, spec.arm)
+    return spec.scene.base_poses.get(name) if isinstance(name, str) else None

@@ -1,8 +1,9 @@
-"""The shapes of objects in files: in our scene files, and as MuJoCo's geoms."""
+"""The shapes of objects in files: in our scene files, as MuJoCo's geoms, and in URDF."""
 
 from __future__ import annotations
 
 from phframe.core import Cylinder, Shape, UnknownShapeError
+from phframe.urdf.solids import Solid
 
 
 def figures_of(shape: Shape) -> dict[str, float | str]:
@@ -29,3 +30,16 @@ def geom_of(shape: Shape) -> tuple[str, tuple[float, ...]]:
             return "cylinder", (shape.radius, shape.height / 2.0)
         case _:
             raise UnknownShapeError(shape, "the export to MJCF")
+
+
+def solid_of(shape: Shape) -> Solid:
+    """The URDF primitive that a shape is.
+
+    Raises:
+        UnknownShapeError: If the export knows no such shape.
+    """
+    match shape:
+        case Cylinder():
+            return Solid("cylinder", (float(shape.radius), float(shape.height)))
+        case _:
+            raise UnknownShapeError(shape, "the export to URDF")

@@ -14,6 +14,7 @@ from collections.abc import Mapping
 
 from phframe.core import Scene, SceneObject, coulomb_with_board
 from phframe.geometry.slabs import BOARD, PANEL, slabs
+from phframe.scenes.shapes import solid_of
 from phframe.urdf.model import Color, Link, Robot, RobotJoint, Visual
 from phframe.urdf.solids import Solid, Vector, of_solids
 from phframe.urdf.writer import robot_urdf
@@ -90,7 +91,7 @@ def _shelf(scene: Scene) -> tuple[list[Link], list[RobotJoint]]:
 
 
 def _object(link: str, scene: Scene, item: SceneObject) -> Link:
-    solid = Solid("cylinder", (float(item.shape.radius), float(item.shape.height)))
+    solid = solid_of(item.shape)
     color = WANTED if item.id == scene.target else PLAIN
     inertia = of_solids(float(item.mass), [solid])
     return Link.of_solids(link, inertia, [solid], color, friction=coulomb_with_board(scene, item))

@@ -20,6 +20,8 @@ from phframe.urdf.solids import ORIGIN, Vector, rotation
 
 STL_HEADER, STL_FACET = 84, 50
 """Bytes of a binary STL file before its facets, and of each of them."""
+COLLADA = (".dae", ".zae")
+"""Suffixes of what trimesh reads by a library of its own."""
 NUMBER = rb"[-+.0-9eE]+"
 
 
@@ -115,7 +117,8 @@ def _numbers(line: bytes, content: bytes) -> FloatArray:
 
 def _by_trimesh(content: bytes, suffix: str) -> FloatArray:
     """COLLADA and whatever else trimesh reads; it turns and scales what its file says is turned and scaled."""
-    missing = next((library for library in ("trimesh", "collada") if find_spec(library) is None), None)
+    libraries = ("trimesh", "collada") if suffix in COLLADA else ("trimesh",)
+    missing = next((library for library in libraries if find_spec(library) is None), None)
     if missing is not None:
         remedy = 'pip install "phframe[meshes]", or give the collision geometry as STL or OBJ'
         raise NotInstalledError(f"a collision mesh of the type {suffix or 'without a suffix'}", missing, remedy)

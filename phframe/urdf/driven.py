@@ -6,7 +6,7 @@ engine that commands each finger by half of the opening must not meet any of the
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -39,11 +39,11 @@ def driven_robot(description: ArmDescription, robot: Robot) -> Robot:
     left, right = (_opening_upwards(robot, name, side) for name, side in zip(description.fingers, SIDES, strict=True))
     flips = {finger.name: -1.0 for finger in (left, right) if finger.axis != robot.joint(finger.name).axis}
     fingers = _coupled(left, right, couplings, flips)
-    driven = set(description.joints) | {fingers[0].name}
+    leaders = [finger.name for finger in fingers if finger.mimic is None]
     limited = [replace(robot.joint(name), kind="revolute") for name in description.joints if _is_endless(robot, name)]
-    others = [joint for name, joint in robot.moving.items() if name not in {*driven, *description.fingers}]
+    others = [joint for name, joint in robot.moving.items() if name not in {*description.joints, *description.fingers}]
     return robot.with_joints(
-        [*fingers, *limited, *(_other(joint, couplings, driven, fingers[0].name, flips) for joint in others)]
+        [*fingers, *limited, *(_other(joint, couplings, description.joints, leaders, flips) for joint in others)]
     )
 
 
@@ -144,15 +144,21 @@ def _coupled(
 
 
 def _other(
-    joint: RobotJoint, couplings: Mapping[str, Mimic], driven: set[str], finger: str, flips: Mapping[str, float]
+    joint: RobotJoint,
+    couplings: Mapping[str, Mimic],
+    driven: Collection[str],
+    fingers: Collection[str],
+    flips: Mapping[str, float],
 ) -> RobotJoint:
-    """A joint that is not driven: after a driven one, or fixed."""
+    """A joint that is not driven: after a driven one or a finger that follows none, or fixed."""
     assert joint.joint is not None, "it moves"
-    own, left = couplings[joint.name], couplings[finger]
-    if own.joint == left.joint and left.multiplier:
-        multiplier = own.multiplier / left.multiplier
-        flipped = multiplier * flips.get(finger, 1.0)
-        return replace(joint, mimic=Mimic(finger, flipped, own.offset - multiplier * left.offset))
+    own = couplings[joint.name]
+    for finger in fingers:
+        leader = couplings[finger]
+        if own.joint == leader.joint and leader.multiplier:
+            multiplier = own.multiplier / leader.multiplier
+            flipped = multiplier * flips.get(finger, 1.0)
+            return replace(joint, mimic=Mimic(finger, flipped, own.offset - multiplier * leader.offset))
     if own.joint in driven:
         return replace(joint, mimic=own)
     lower, upper = joint.joint.lower, joint.joint.upper

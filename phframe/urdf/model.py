@@ -228,10 +228,6 @@ class Robot:
         frame = RobotJoint(parent, name, at, rpy)
         return Robot.of(self.name, [*self.links.values(), Link(name, speck)], [*self.parent_joints.values(), frame])
 
-    def without_visuals(self) -> Robot:
-        """The robot as engines need it."""
-        return replace(self, links={name: replace(link, visuals=()) for name, link in self.links.items()})
-
     def without_hulls(self) -> Robot:
         """The robot with primitives alone, for engines that are given convex hulls by other means than files."""
         return replace(

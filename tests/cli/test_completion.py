@@ -9,9 +9,9 @@ from tests.cli.conftest import Run
 
 
 def test_names_come_from_the_registry() -> None:
-    assert [name for name, _ in completion.planners("p")] == ["phia"]
-    assert [name for name, _ in completion.topology("")] == ["ripser", "single-linkage"]
-    assert completion.backends("nothing") == []
+    assert [name for name, _ in completion.names("planner")("p")] == ["phia"]
+    assert [name for name, _ in completion.names("topology")("")] == ["ripser", "single-linkage"]
+    assert completion.names("backend")("nothing") == []
 
 
 def test_scenes_and_scene_files() -> None:

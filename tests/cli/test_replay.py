@@ -95,6 +95,27 @@ def test_an_episode_file_runs_no_code_unless_it_is_given(invoke: Invoke, made: P
     assert Path("ran").exists()
 
 
+OWN_PARTS = """
+from phframe.arms.planar import PlanarArm as Arm
+from phframe.backends.pymunk_.physics import PymunkPhysics as Backend
+from phframe.pushing.retrieve import Retrieve as Goal
+from phframe.topology.ripser_ import Ripser as Topology
+"""
+
+
+@pytest.mark.parametrize("part", ["arm", "backend", "plan-arm", "plan-backend", "topology", "goal"])
+def test_an_episode_with_a_part_from_a_file_is_repeated_where_that_is_given(invoke: Invoke, part: str) -> None:
+    Path("own.py").write_text(OWN_PARTS)
+    given = (f"--{part}", f"./own.py:{part.removeprefix('plan-').capitalize()}")
+    assert invoke("solve", EASY, "--option", "margin=0.02", *given, "--no-rerun", "-q", "--out", "run").exit_code == 0
+    refused = invoke("replay", "run")
+    assert (refused.exit_code, refused.stderr.count("\n")) == (2, 1)
+    assert refused.stderr.strip().endswith(" ".join(given))
+    result = invoke("replay", "run", *given)
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.stdout.startswith("the same, bit by bit: retrieved")
+
+
 @pytest.mark.needs_mujoco
 @pytest.mark.slow
 def test_nor_does_its_export(invoke: Invoke) -> None:

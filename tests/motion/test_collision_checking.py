@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 
 pytest.importorskip("pinocchio")
 
-from phframe.core import Condition, Contacts, FloatArray, Scene, State, compose, inverse, planar_pose
+from phframe.core import Condition, Contacts, FloatArray, Scene, State, UnknownShapeError, compose, inverse, planar_pose
 from phframe.motion.coal_ import CollisionChecker, CollisionModel
 from phframe.motion.collision_checking import CollisionContext, allowed_objects
+from tests import prism
 from tests.motion.motions import MIDDLE, SHELF, baxter, cylinder, example
 
 pytestmark = pytest.mark.needs_baxter
@@ -211,3 +212,8 @@ def test_fingers_may_touch_one_another() -> None:
     arm = example()
     assert arm.shape.min_opening == 0.0
     assert not [pair for pair in checker_of(arm).collisions(arm.home) if set(pair) == set(arm.fingers.links)]
+
+
+def test_a_shape_that_is_not_known_is_refused() -> None:
+    with pytest.raises(UnknownShapeError, match="collision checking has no primitive for the shape 'prism'"):
+        model_of(example(), prism.SCENE)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from pathlib import Path
+from dataclasses import replace
+from io import BytesIO
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import pytest
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.core import ArmModel, BasePose, Cylinder, Scene, SceneObject, Shelf, compose, inverse, planar_pose
 from phframe.motion.reachability import INSET, YAWS, reachability
+from tests.prism import PRISM
 
 SHELF = Shelf(0.594, 0.584)
 SCENE = Scene("alone", SHELF, (SceneObject("can", Cylinder(0.03), (0.4, 0.3)),), "can")
@@ -68,7 +70,7 @@ def test_baxter_reaches_its_shelf_and_less_from_farther_away() -> None:
 @pytest.mark.parametrize("away", [0.0, 0.1, 0.3, 1.0])
 def test_what_is_refused_is_what_arm_reach_says(away: float, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("pinocchio", reason="needs the extra 'baxter'")
-    from phframe.cli.reaching import ReachRequest, run
+    from phframe.cli.reaching import run
     from phframe.runtime.scenes import find_scene
     from phframe.runtime.world import LEAST_SERVED
     from tests.arms.baxter_arm import baxter
@@ -76,7 +78,7 @@ def test_what_is_refused_is_what_arm_reach_says(away: float, capsys: pytest.Capt
     arm, shelf = baxter("left"), find_scene("papallas/s02").shelf
     own = arm.default_base_pose(shelf)
     base_pose = own.x - away, own.y, own.z, own.yaw
-    run(ReachRequest("baxter", "papallas/s02", base_pose, None, {"arm": {}, "scenes": {}}, as_json=True, force=False))
+    run("baxter", "papallas/s02", base_pose, None, {"arm": {}, "scenes": {}}, as_json=True, force=False)
     served = arm.fraction_served(shelf, BasePose(*base_pose))
     assert json.loads(capsys.readouterr().out)["fraction"] == served
     assert (served >= LEAST_SERVED) == (away < 0.2)
@@ -104,14 +106,25 @@ def test_an_arm_that_does_not_know_leaves_it_to_be_found_out() -> None:
     assert fraction(arm, arm.default_base_pose(SHELF)) == 1.0
 
 
-def test_the_map_is_a_picture(tmp_path: Path) -> None:
+def picture_of(scene: Scene) -> bytes:
     pytest.importorskip("matplotlib")
-    from matplotlib.image import imread
-
-    from phframe.cli.reach_map import draw_reach
+    from phframe.cli.reach_map import reach_picture
 
     arm = PlanarArm(PlanarArmOptions(link_width=0.5))
-    draw_reach(reachability(SHELF, arm, arm.default_base_pose(SHELF)), SCENE, "planar", tmp_path / "reach.png")
-    picture = imread(tmp_path / "reach.png")
+    return reach_picture(reachability(SHELF, arm, arm.default_base_pose(SHELF)), scene, "planar")
+
+
+def test_the_map_shows_objects_by_their_outlines() -> None:
+    prism = replace(SCENE.objects[0], shape=PRISM)
+    around = replace(prism, shape=Cylinder(PRISM.bounding_radius))
+    turned = replace(prism, yaw=0.5)
+    assert len({picture_of(replace(SCENE, objects=(item,))) for item in (prism, around, turned)}) == 3
+
+
+def test_the_map_is_a_picture() -> None:
+    content = picture_of(SCENE)
+    from matplotlib.image import imread
+
+    picture = imread(BytesIO(content))
     assert picture.shape[0] > 400
     assert float(picture[..., :3].std()) > 0.05

@@ -12,6 +12,7 @@ import pytest
 pytest.importorskip("rerun")
 
 import rerun as rr
+import rerun.blueprint as rrb
 
 from phframe.core import (
     ROOT,
@@ -26,9 +27,12 @@ from phframe.core import (
     UnknownShapeError,
 )
 from phframe.recorders import palette
+from phframe.recorders.decision_entities import log_decision
 from phframe.recorders.object_solids import disc_radius, primitive_of
 from phframe.recorders.rerun_ import RerunRecorder
+from phframe.recorders.stream import Stream
 from phframe.recorders.tree_entities import MOST_SHOWN, layout, omitted_label
+from tests.prism import PRISM
 from tests.recorders.reading import Recording
 from tests.recorders.synthetic_episode import SCENE, SPEC, Recorded, failed_plan, hand_made, mounted
 
@@ -396,3 +400,10 @@ def test_a_shape_that_is_not_known_is_an_error() -> None:
     for draw in (primitive_of, disc_radius):
         with pytest.raises(UnknownShapeError, match="the recording has no primitive for the shape 'pyramid'"):
             draw(Pyramid())
+
+
+def test_where_a_shape_that_is_not_known_is_to_go_is_an_error(made: Recorded, tmp_path: Path) -> None:
+    step = made.episode.steps[2]
+    scene = replace(SCENE, objects=tuple(replace(item, shape=PRISM) for item in SCENE.objects))
+    with pytest.raises(UnknownShapeError, match="the recording has no primitive for the shape 'prism'"):
+        log_decision(Stream(tmp_path / "a.rrd", "a", rrb.Blueprint(), {"seed": "7"}), scene, step)

@@ -10,6 +10,7 @@ import pytest
 from phframe.core import (
     Action,
     ActionKind,
+    Episode,
     Motion,
     Options,
     Plan,
@@ -23,6 +24,7 @@ from phframe.core import (
 from phframe.planners.phia import PHIA
 from phframe.pushing.options import PushingOptions
 from phframe.runtime.execution_world import ExecutionWorld
+from phframe.runtime.observer import Observer
 from phframe.runtime.world import WorldSpec
 from tests.pushing.parts import scene_of
 from tests.runtime.worlds import BASIC, Clumsy, Meddling, Noting, arm_file, run, shifted
@@ -126,3 +128,27 @@ def test_an_interrupt_is_not_swallowed(planner: Planner[PushingOptions]) -> None
 
     with pytest.raises(KeyboardInterrupt):
         run(Clumsy(SPEC, interrupt), planner)
+
+
+def test_an_interrupted_episode_tells_what_was_tried_and_rejected() -> None:
+    class Kept(Observer):
+        partial: Episode | None = None
+
+        def interrupted(self, episode: Episode) -> None:
+            self.partial = episode
+
+    class Interrupted(PHIA):
+        asked = 0
+
+        def search(self, task: Task) -> Plan:
+            self.asked += 1
+            if self.asked > 1:
+                raise KeyboardInterrupt
+            return super().search(task)
+
+    kept = Kept()
+    with pytest.raises(KeyboardInterrupt):
+        run(Clumsy(WorldSpec(BASIC), lambda _: True), Interrupted(PushingOptions()), observers=[kept])
+    assert kept.partial is not None
+    assert (len(kept.partial.plans), len(kept.partial.rejections)) == (1, 1)
+    assert kept.partial.rejections[0].reason.endswith("joint 4 at its limit")

@@ -153,3 +153,12 @@ def test_specs_are_equal_by_content_and_survive_pickling() -> None:
     assert len(pickle.dumps(SPEC)) < 20_000
     with PlanningWorld(pickle.loads(pickle.dumps(options))) as world:
         assert world.arm.shape.closed[-1].vertices[:, 1].max() == pytest.approx(0.05)
+
+
+@pytest.mark.slow
+@pytest.mark.needs_mujoco
+def test_motion_planning_in_workers_counts() -> None:
+    pytest.importorskip("mujoco")
+    with PlanningWorld(WorldSpec(BASIC, "mujoco"), workers=2) as world:
+        world.apply_many(PAIRS[:2])
+        assert world.motion_planning_time > 0.0

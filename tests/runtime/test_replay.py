@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import phframe
-from phframe.core import Episode, Motion, State, Status
+from phframe.core import Episode, Motion, State, Status, StoredName
 from phframe.runtime.replay import Difference, differing_versions, first_difference, spec_of
 
 EPISODE = phframe.solve("vieira/basic", options={"planner": {"margin": 0.02}})
@@ -78,3 +78,20 @@ def test_another_part_comes_with_its_own_options_and_the_others_stay() -> None:
     assert (spec.planner, spec.backend, dict(spec.options)) == ("ooa", "pymunk", {})
     assert spec_of(EPISODE, planner="phia").options == {"planner": {"margin": 0.02}}
     assert spec_of(EPISODE, arm="baxter").plan_arm is None
+
+
+def test_what_was_planned_with_the_same_part_follows_it() -> None:
+    options = {"arm": {"link_width": 0.1}, "plan_arm": {"link_width": 0.12}}
+    episode = replace(EPISODE, spec=replace(EPISODE.spec, options=options))
+    same, other = (spec_of(episode, arm=arm, backend=episode.spec.backend) for arm in ("planar", "baxter"))
+    assert (same.plan_arm, same.plan_backend, same.options) == ("planar", "pymunk", options)
+    assert (other.plan_arm, other.plan_backend, other.options) == (None, "pymunk", {})
+    assert spec_of(EPISODE, backend="mujoco").plan_backend is None
+    assert spec_of(EPISODE, arm="baxter", plan_arm="planar").plan_arm == "planar"
+
+
+def test_a_stored_class_in_a_file_is_replaced_by_the_given_one_wherever_it_was_used() -> None:
+    stored = StoredName("./mine.py:Mine")
+    before = replace(EPISODE.spec, arm=stored, plan_arm=stored, backend=stored, plan_backend=stored)
+    spec = spec_of(replace(EPISODE, spec=before), arm=str(stored), backend=str(stored))
+    assert {type(name) for name in (spec.arm, spec.plan_arm, spec.backend, spec.plan_backend)} == {str}

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from phframe.arms.planar import PlanarArm, PlanarArmOptions
+from phframe.backends.pymunk_.drive import SATURATED
 from phframe.core import (
     Action,
     BasePose,
@@ -20,6 +22,8 @@ from phframe.core import (
     Phase,
     PhaseRule,
     State,
+    Stop,
+    StopCause,
     UnknownNameError,
     Watch,
 )
@@ -137,7 +141,6 @@ def test_what_cannot_be_built_is_refused(spec: WorldSpec, error: type[Exception]
 
 
 def test_a_backend_that_drives_joints_needs_a_motion_planner(monkeypatch: pytest.MonkeyPatch) -> None:
-    from phframe.arms.planar import PlanarArm
     from phframe.backends.pymunk_.physics import PymunkPhysics
     from phframe.core import JointTrajectory
 
@@ -176,3 +179,31 @@ def test_worlds_can_be_closed_twice_and_are_by_with() -> None:
     with world:
         pass
     world.close()
+
+
+@pytest.mark.parametrize("arm", [PlanarArm, PlanarArm(PlanarArmOptions(link_width=0.05))], ids=["class", "object"])
+def test_a_registered_arm_given_as_it_is_stands_where_the_scene_has_its_name(arm: Any) -> None:
+    mounted = replace(BASIC, base_poses={"planar": BasePose(-0.3, 0.1, 0.06, 0.0)})
+    with PlanningWorld(WorldSpec(mounted, arm=arm)) as world:
+        assert world.base_pose == mounted.base_poses["planar"]
+
+
+def test_an_arm_that_cannot_be_hashed_and_is_not_registered_stands_where_it_does_by_default() -> None:
+    class Unhashable(PlanarArm):
+        __hash__ = None  # type: ignore[assignment]
+
+    mounted = replace(BASIC, base_poses={"planar": BasePose(-0.3, 0.1, 0.06, 0.0)})
+    with PlanningWorld(WorldSpec(mounted, arm=Unhashable(PlanarArmOptions()))) as world:
+        assert world.base_pose == world.arm.default_base_pose(BASIC.shelf)
+
+
+def test_of_a_stop_and_a_stall_in_the_same_step_the_stop_counts() -> None:
+    fast = PhaseRule(2.0, 0.0, Contacts.OBJECTS)
+    phases = JAM.path.phases
+    action = replace(JAM, path=replace(JAM.path, rules=dict.fromkeys(phases, fast)))
+    with PlanningWorld(WorldSpec(WALL)) as world:
+        start = WALL.initial_state()
+        assert world.apply(start, action).motion.stalled
+        motion = world.apply(start, action, Stop(force=world.arm.force_limit * SATURATED - 0.01)).motion
+        assert motion.stopped is not None
+        assert (motion.stopped.cause, motion.stalled) == (StopCause.FORCE, False)

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from phframe.core import Scene
+from phframe.core import Scene, UnknownShapeError
 from phframe.runtime.scenes import find_scene
 from phframe.scenes.urdf import FOLDER, LIST_FILE, SHELF_FILE, object_links, position_of, scene_parts, scene_to_urdf
+from tests import prism
 from tests.scenes.test_mjcf import ODD
 
 SCENES = [ODD, find_scene("papallas/s02")]
@@ -95,3 +96,9 @@ def test_the_target_has_a_colour_of_its_own() -> None:
     }
     target = colours[object_links(ODD)[ODD.target_index]]
     assert list(colours.values()).count(target) == 1
+
+
+def test_a_shape_that_is_not_known_is_refused() -> None:
+    for export in (scene_to_urdf, scene_parts):
+        with pytest.raises(UnknownShapeError, match="the export to URDF has no primitive for the shape 'prism'"):
+            export(prism.SCENE)

@@ -94,3 +94,14 @@ def test_meshes_are_found_where_urdfs_say(tmp_path: Path, monkeypatch: pytest.Mo
         find_mesh("near.obj", None)
     with pytest.raises(ArmError, match="looked there only"):
         find_mesh("/nowhere/near.obj", urdf)
+
+
+@pytest.mark.parametrize("suffix", ["ply", "glb", "off"])
+def test_what_is_not_collada_needs_no_reader_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, suffix: str
+) -> None:
+    trimesh = pytest.importorskip("trimesh")
+    trimesh.creation.box(SIZE).export(tmp_path / f"a.{suffix}")
+    monkeypatch.setitem(__import__("sys").modules, "collada", None)
+    vertices, _ = read_hull(tmp_path / f"a.{suffix}", WHOLE)
+    np.testing.assert_allclose(np.ptp(vertices, axis=0), SIZE, rtol=1e-6)

@@ -213,3 +213,13 @@ def test_keys_are_those_of_the_file_and_of_the_code() -> None:
     assert given["postures"]
     assert ArmDescription.model_validate(given) == DESCRIPTION
     assert ArmDescription(**DESCRIPTION.model_dump()) == DESCRIPTION
+
+
+@pytest.mark.parametrize(("finger", "sign"), [("left_slide", 1.0), ("right_slide", -1.0)])
+def test_what_follows_one_of_two_independent_fingers_moves_with_it(finger: str, sign: float) -> None:
+    more = f"""<link name="cover"/><joint name="cover" type="prismatic"><parent link="palm"/><child link="cover"/>
+    <axis xyz="0 0 1"/><limit lower="-1" upper="1" velocity="1" effort="1"/>
+    <mimic joint="{finger}" multiplier="0.5" offset="0.01"/></joint></robot>"""
+    robot = driven(right(1.0, -0.04, 0.0).replace("</robot>", more))
+    assert robot.joint("right_slide").mimic is None
+    assert robot.joint("cover").mimic == Mimic(finger, 0.5 * sign, 0.01), "the right finger counts backwards"

@@ -232,8 +232,6 @@ MIN_OPENING = 0.035
 
 # --- what stands still, in the frame of the base, which is the torso's ---
 
-FLOOR = -0.9242
-"""z of the floor."""
 TORSO = Inertia(35.336455, (0.0, 0.0, 0.0), (1.849155, -0.000354, -0.154188, 1.662671, 0.003292, 0.802239))
 TORSO_GEOMETRY = (
     _box("mounts", (0.156, 0.672, 0.16), (0.065, 0.0, 0.08)),

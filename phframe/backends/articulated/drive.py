@@ -72,6 +72,7 @@ class JointDrive:
             followed = self._tick * self._period
             self._limiter.release()
             if self._ended:
+                self._stop = None  # one cause: what comes after is none of it
                 self._comply()
             if settle is not None:
                 self._settle(settle)

@@ -250,6 +250,9 @@ class PymunkDrive:
     def _halt(self) -> None:
         """Stand still, and where the arm could not follow, forget where it should have been."""
         arm = self._world.arm
+        self._stalled = self._stalled and self._cause is None
+        if self._ended:
+            self._stop = None  # one cause: what comes after is none of it
         if self._stalled:
             self._comply()
             self._stalled = True

@@ -56,13 +56,11 @@ class Calibration:
     Attributes:
         fitted: The values found.
         shipped: The values that ``solve`` uses.
-        tried: How often the sweeps it was fitted to were predicted.
         judged: How well each set of sweeps is predicted.
     """
 
     fitted: Values
     shipped: Values
-    tried: int
     judged: tuple[Judged, ...]
 
     def as_json(self) -> dict[str, Any]:
@@ -98,30 +96,29 @@ def calibrate(scenes: int, published: Sequence[str], tell: Callable[[str], None]
     tell("sweeping in MuJoCo")
     train, held_back = _random(range(1, scenes + 1)), _random(range(scenes + 1, 2 * scenes + 1))
     first = _observed(planned_sweeps(published, PLAN_OPTIONS, first=True))
-    fitted, tried = fit(train.score, tell)
+    fitted = fit(train.score, tell)
     shipped = {**BEFORE, **PLAN_OPTIONS}
     sets = (("fitted to", train), ("held back", held_back), ("first, published", first))
     judged = tuple(
         Judged(name, *(observed.score(values) for values in (BEFORE, fitted, shipped))) for name, observed in sets
     )
-    return Calibration(fitted, shipped, tried, judged)
+    return Calibration(fitted, shipped, judged)
 
 
-def fit(judge: Callable[[Values], Score], tell: Callable[[str], None]) -> tuple[Values, int]:
-    """The values on the grid that fit best, one after the other, until none moves; and how often it judged."""
-    values, best, tried = dict(BEFORE), judge(BEFORE).fit, 1
+def fit(judge: Callable[[Values], Score], tell: Callable[[str], None]) -> Values:
+    """The values on the grid that fit best, one after the other, until none moves."""
+    values, best = dict(BEFORE), judge(BEFORE).fit
     for _ in range(ROUNDS):
         begun = dict(values)
         for name, grid in GRID.items():
             tell(f"fitting {name}, so far {best * 1e3:.2f} mm")
             others = [value for value in grid if value != values[name]]
             fits = [judge({**values, name: value}).fit for value in others]
-            tried += len(fits)
             if min(fits) < best * (1.0 - GAIN):
                 best, values[name] = min(fits), others[fits.index(min(fits))]
         if values == begun:
             break
-    return values, tried
+    return values
 
 
 def _random(seeds: Sequence[int]) -> Observed:
