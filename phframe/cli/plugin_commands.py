@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection
 from importlib import metadata
 from typing import TYPE_CHECKING, Any
@@ -50,8 +51,8 @@ def load_command(name: str, own: Collection[str]) -> Any:
 
 
 def _entries() -> tuple[Entry, ...]:
-    """The registered commands. The registry is imported only if there is any plugin."""
-    if not metadata.entry_points(group=_GROUP):
+    """The registered commands. The registry is imported only if any plugin is to be loaded."""
+    if os.environ.get("PHFRAME_PLUGINS", "all").strip() == "" or not metadata.entry_points(group=_GROUP):
         return ()
     from phframe.core.errors import PhframeError
     from phframe.registry import Kind, catalogue

@@ -46,7 +46,9 @@ def test_collada_is_read_where_trimesh_is_installed(tmp_path: Path) -> None:
         read_hull(tmp_path / "bad.dae", WHOLE)
 
 
+@pytest.mark.needs_meshes
 def test_what_reads_collada_is_named_where_it_is_missing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("trimesh")
     monkeypatch.setitem(__import__("sys").modules, "collada", None)
     (tmp_path / "b.dae").write_bytes(b"<COLLADA/>")
     with pytest.raises(NotInstalledError, match=r"type \.dae needs collada.*phframe\[meshes\].*STL or OBJ"):
