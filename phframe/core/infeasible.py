@@ -11,7 +11,7 @@ class Infeasible:
 
     Attributes:
         reason: Why, for people.
-        blockers: Ids of the objects in the way, if objects are.
+        blockers: Ids of the obstructing objects, if objects are.
     """
 
     reason: str

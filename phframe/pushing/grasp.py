@@ -61,7 +61,7 @@ def grasp_action(
 ) -> Grasp | Infeasible:
     """The reach along the corridor's axis, the grasp and the withdrawal, turned by up to 15 degrees past neighbours.
 
-    The link must pass free of obstacles and walls (the paper's success). What is in the way of the yaw with the fewest
+    The link must pass free of obstacles and walls (the paper's success). What obstructs the yaw with the fewest
     obstacles is named in the result.
 
     Args:
@@ -101,7 +101,7 @@ def _deviations(fit: int, yaw_offset: float) -> tuple[Deviation, ...]:
 
 
 def _severity(obstruction: Infeasible) -> tuple[bool, int]:
-    """Objects in the way are less of an obstacle than walls, few less than many."""
+    """Obstructing objects count less than walls, few less than many."""
     return not obstruction.blockers, len(obstruction.blockers)
 
 
@@ -120,7 +120,7 @@ class _Reach:
         self._length = (float(self._tip[0]) + front + MOUTH_CLEARANCE) / self._ahead[0]
 
     def obstruction(self) -> Infeasible | None:
-        """What is in the way: walls, or the objects by name."""
+        """What obstructs the reach: walls, or the objects by name."""
         start = self._tip - self._length * self._ahead
         walls = self._view.walls(self._yaw)
         if walls.travel(start, self._ahead, self._length) < self._length:

@@ -23,7 +23,7 @@ class PushingOptions(Options):
         insertion_width: Width of what must fit between two groups (m); 0.018 gives the paper's threshold of 0.08.
         margin: By how much a radius must be persistent, nu (m).
         max_actions: Pushes after which to give up.
-        patience: Pushes in a row that make the obstacles in the way no fewer, after which to give up.
+        patience: Pushes in a row that make the obstacles in the corridor no fewer, after which to give up.
         insert_speed: Going in and out (m/s).
         sweep_speed: Sweeping (m/s).
         reach_speed: Reaching for the target and drawing it out (m/s).

@@ -94,7 +94,7 @@ def prism(outline: Outline) -> Surface:
 
 
 def _fan(corners: int) -> np.ndarray[tuple[int, int], np.dtype[np.int64]]:
-    """Triangles ``(k - 2, 3)`` that cover a convex polygon of ``k`` corners."""
+    """Triangles ``(k - 2, 3)`` that fill a convex polygon of ``k`` corners."""
     second = np.arange(1, corners - 1)
     return np.column_stack([np.zeros_like(second), second, second + 1])
 

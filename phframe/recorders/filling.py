@@ -1,4 +1,4 @@
-"""Filled shapes for 2D views, which draw none: lines thick enough to cover a convex polygon."""
+"""Filled shapes for 2D views, which draw none: lines thick enough to fill a convex polygon."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ OVERLAP = 0.9
 
 
 def filling(vertices: FloatArray, lines: int) -> tuple[list[FloatArray], float]:
-    """Cover a convex polygon.
+    """Fill a convex polygon.
 
     Lines have round ends; one along the edge, just inside, makes the edge straight, and the rest end on that one.
 

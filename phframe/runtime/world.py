@@ -40,7 +40,7 @@ from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.registry import Kind, create, identify, load
 
 APPROACH_SPEED = 0.5
-"""Of the fingertip outside the shelf, where nothing is in the way (m/s)."""
+"""Of the fingertip outside the shelf, in free space (m/s)."""
 RETREAT_SPEED = 0.25
 """Of the fingertip that draws back after a stall (m/s)."""
 LEAST_SERVED = 0.7

@@ -14,7 +14,7 @@ class PhysicsTolerances:
         untouched: How far an object at rest may wander while nothing touches it (m).
         height: How far an upright object's centre may be from half its height above the board (m).
         sunk: How far an object may be pressed into a wall, and the arm into an object (m).
-        tracking: How far the fingertip may be from its trajectory where nothing is in the way (m).
+        tracking: How far the fingertip may be from its trajectory in free space (m).
         stopping: Relative error of an object's stopping distance.
         stopping_slack: What a stopping distance may differ besides (m): softness of the contact it starts from.
         force: By which fraction the largest force may exceed the limit.

@@ -122,13 +122,11 @@ def test_ooa_pushes_one_object_at_a_time() -> None:
 
 
 @both
-def test_planning_does_not_take_long(planner: str) -> None:
-    """Ten times the bar that ``make bench`` measures: this only finds what got slow by orders."""
-    seconds = sorted(
-        plan.cost.total / max(plan.cost.simulated_actions, 1) for e in episodes(planner) for plan in e.plans
-    )
-    assert seconds[len(seconds) // 2] < 0.1
-    assert max(episode.cost.total for episode in episodes(planner)) < 5.0
+def test_planning_simulates_few_actions(planner: str) -> None:
+    """What planning costs, counted: time is measured by ``make bench``."""
+    simulated = sorted(sum(plan.cost.simulated_actions for plan in episode.plans) for episode in episodes(planner))
+    assert simulated[len(simulated) // 2] <= 6
+    assert simulated[-1] <= 20
 
 
 @both

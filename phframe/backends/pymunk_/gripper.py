@@ -16,7 +16,7 @@ TOUCH = 5e-4
 
 
 def place_arm(world: ShelfSpace, pose: FloatArray) -> None:
-    """Put the arm at a fingertip pose ``(3,)``, at rest; only where nothing is in the way."""
+    """Put the arm at a fingertip pose ``(3,)``, at rest; only where that is collision-free."""
     for body in (world.arm.body, world.arm.carrier):
         body.position = float(pose[0]), float(pose[1])
         body.angle = float(pose[2])

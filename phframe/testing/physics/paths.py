@@ -61,7 +61,7 @@ def scene_of(*objects: SceneObject, shelf: Shelf = SHELF) -> Scene:
 
 
 def crowd() -> Scene:
-    """Five objects, four of which are in the way of ``CROWD_SWEEP``."""
+    """Five objects, four of which obstruct ``CROWD_SWEEP``."""
     return scene_of(
         cylinder("a", 0.20, 0.30),
         cylinder("b", 0.27, 0.33),

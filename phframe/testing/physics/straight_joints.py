@@ -1,4 +1,4 @@
-"""Joint trajectories by inverse kinematics alone, for backends that execute those; nothing is in the way."""
+"""Joint trajectories by inverse kinematics alone, for backends that execute those, in free space."""
 
 from __future__ import annotations
 

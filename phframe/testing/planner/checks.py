@@ -54,7 +54,7 @@ def retrieved_means_in_the_hand(subject: PlannerUnderTest) -> Faults:
 
 @check
 def free_targets_are_within_its_power(subject: PlannerUnderTest) -> Faults:
-    """Planner: finds the actions that bring the target out; nothing is in the way here."""
+    """Planner: finds the actions that bring the target out; nothing obstructs it here."""
     plan = _plan(subject, lone_target())
     yield from expect(plan.succeeded, "a plan worth carrying out for a lone target", f"{plan.status}: {plan.reason}")
     yield from _expect_well_formed(plan, lone_target())

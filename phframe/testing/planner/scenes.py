@@ -28,7 +28,7 @@ def cluttered(seed: int, obstacles: int = 6) -> Scene:
 
 
 def lone_target() -> Scene:
-    """Nothing is in the way."""
+    """Nothing obstructs the target."""
     return Scene("a lone target", SHELF, (_object("target", 0.35, 0.3),), "target")
 
 
