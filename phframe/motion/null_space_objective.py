@@ -56,7 +56,9 @@ class NullSpaceObjective:
             obstacles: Upright cylinders to keep off ``(m, 4)``: x, y, radius and top (m), in the shelf frame.
 
         Returns:
-            Residuals ``(k,)``, whose sum of squares is to be small, and their slopes ``(k,)``.
+            Residuals ``(k,)``, whose sum of squares is to be small, and their slopes ``(k,)``, in which the described
+            width counts as the same all along the arm: what it changes by as a point moves to and from the fingertip
+            is left out.
         """
         points, speeds = self._surface.seen(q, direction)
         width, width_slope = self._too_wide(points, speeds, gripper)
@@ -76,7 +78,10 @@ class NullSpaceObjective:
         return max(0.0, float(wide.max(initial=0.0)) - WIDTH_ROOM)
 
     def _too_wide(self, points: FloatArray, speeds: FloatArray, gripper: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """How far points in the shelf stand out beyond the described width, less some room, and the slope of that."""
+        """How far points in the shelf stand out beyond the described width, less some room, and the slope of that.
+
+        out = |across| - width(behind) + room; d out/dt = sign(across) d across/dt, without width'(behind) d behind/dt.
+        """
         c, s = np.cos(gripper[2]), np.sin(gripper[2])
         x, y = points[:, 0] - gripper[0], points[:, 1] - gripper[1]
         across, behind = c * y - s * x, -(c * x + s * y)
