@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from phframe.core import Action, Attempt, Decision, Infeasible, Plan, State, Status, Task, Transition
+from phframe.core import Action, Assessment, Attempt, Decision, Infeasible, Plan, State, Status, Task, Transition
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.grasp import Grasp
 from phframe.pushing.options import PushingOptions
@@ -84,12 +84,30 @@ class PushSearch:
 
     def grasp(self, node: int, grasp: Grasp) -> Plan:
         """The plan that ends with a grasp from a node, simulated and judged by the task's goal."""
-        decision = PushDecision("nothing blocks the grasp", grasp.deviations, corridor=grasp.corridor)
-        end = self.tree.child(node, grasp.action, self.task.apply(self.state(node), grasp.action), decision)
-        found = self.tree[end]
-        assert found.motion is not None, "simulated"
-        outcome = self.task.goal.assess(self.task.scene, found.state, Attempt(grasp.action, found.motion))
+        end, outcome = self._grasped(node, grasp)
         return self.tree.plan(end, outcome.status, outcome.reason)
+
+    def grasp_early(self, node: int, problem: PushProblem) -> Plan | None:
+        """The plan that ends with a grasp past the obstacles that are still in the corridor; None where that fails.
+
+        It is simulated only where nothing blocks it; an attempt that fails stays in the tree, closed.
+        """
+        grasp = self.pushing.grasp(problem)
+        if isinstance(grasp, Infeasible):
+            return None
+        early = replace(grasp, deviations=(*grasp.deviations, Deviation.GRASP_EARLY))
+        end, outcome = self._grasped(node, early)
+        if outcome.status is Status.RETRIEVED:
+            return self.tree.plan(end, outcome.status, outcome.reason)
+        self.tree.close(end, outcome.reason)
+        return None
+
+    def _grasped(self, node: int, grasp: Grasp) -> tuple[int, Assessment]:
+        """Simulate a grasp from a node: the index of the new one, and what the goal's judge says of it."""
+        made = self.task.apply(self.state(node), grasp.action)
+        decision = PushDecision("nothing blocks the grasp", grasp.deviations, corridor=grasp.corridor)
+        end = self.tree.child(node, grasp.action, made, decision)
+        return end, self.task.goal.assess(self.task.scene, made.state, Attempt(grasp.action, made.motion))
 
     def fail(self, node: int, reason: str) -> Plan:
         """The plan that ends at a node without success, and why; what was rejected before is told, too."""

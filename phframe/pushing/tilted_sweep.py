@@ -97,6 +97,14 @@ class TiltedSweep:
         self._walls = view.walls(corridor.angle + tilt)
         self._boxes = view.boxes
 
+    def paper(self) -> Push | None:
+        """The paper's sweep, whatever it meets: to the rectangle's far edge or as near to the target as is allowed."""
+        far = float(self._component.rectangle.upper[0])
+        push = self._at(far, ())
+        if push is None or (allowed := self._depth_allowed(push.sweep)) >= far:
+            return push
+        return self._at(allowed, ())
+
     def push(self, deviations: Deviations) -> Push | None:
         """The sweep to the rectangle's far edge, or as far as the target allows; None where nothing would be touched.
 
