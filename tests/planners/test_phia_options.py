@@ -35,8 +35,8 @@ def test_the_papers_sweeps_are_never_tilted_shifted_or_the_other_way(planner: st
 
 def test_grasping_first_takes_fewer_pushes() -> None:
     scenes = [f"vieira/example-{number:02d}" for number in (1, 2, 3, 4)]
-    options = ({}, {"planner": {"grasp_first": True}}, {"planner": {"grasp_first": True, "radius": "largest"}})
-    runs = [[solve(scene, planner="phia", options=each) for scene in scenes] for each in options]
+    chosen: list[dict[str, object]] = [{}, {"grasp_first": True}, {"grasp_first": True, "radius": "largest"}]
+    runs = [[solve(scene, planner="phia", options={"planner": each}) for scene in scenes] for each in chosen]
     assert all(episode.status is Status.RETRIEVED for run in runs for episode in run)
     usual, early, largest = (sum(episode.pushes for episode in run) for run in runs)
     assert usual > early >= largest

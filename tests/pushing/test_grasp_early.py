@@ -6,7 +6,8 @@ from dataclasses import replace
 
 from phframe.core import Action, ActionKind, ArmState, Motion, State, Status, Transition
 from phframe.pushing import Deviation
-from tests.pushing.test_clearing import BLOCKED, aside, grasped, plan, scene_of
+from tests.pushing.parts import scene_of
+from tests.pushing.test_clearing import BLOCKED, aside, grasped, plan
 
 ASIDE = scene_of((0.45, 0.3), (0.2, 0.4))
 """An obstacle in the corridor that keeps no arm from the target."""
