@@ -15,6 +15,7 @@ from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, is_unchanged
 from phframe.pushing.pushing import Pushing
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
+from phframe.pushing.straight_drive import StraightDrive, first_blocker, straight_drive
 from phframe.pushing.sweep import Sweep, push_action
 from phframe.pushing.sweep_generator import SweepGenerator
 
@@ -34,17 +35,20 @@ __all__ = [
     "Rectangle",
     "Retrieve",
     "RetrieveOptions",
+    "StraightDrive",
     "Sweep",
     "SweepGenerator",
     "bounding_rectangle",
     "closest_component",
     "corridor_half_width",
     "find_corridor",
+    "first_blocker",
     "grasp_action",
     "is_cleared",
     "is_unchanged",
     "persistent_radii",
     "push_action",
+    "straight_drive",
     "usable_radii",
     "usable_threshold",
 ]
