@@ -20,6 +20,12 @@ EXTENSIONS = [
         Kind.PLANNER, "ooa", "phframe.planners.ooa:OOA", "Pushes one obstacle at a time, the closest first; no grouping"
     ),
     _own(
+        Kind.PLANNER,
+        "grtc-straight",
+        "phframe.planners.grtc_straight:GRTCStraight",
+        "Drives straight at the target, and pushes what that meets straight to a random free place",
+    ),
+    _own(
         Kind.BACKEND,
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
