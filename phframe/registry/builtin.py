@@ -26,6 +26,13 @@ EXTENSIONS = [
         "Drives straight at the target, and pushes what that meets straight to a random free place",
     ),
     _own(
+        Kind.PLANNER,
+        "grtc-kinodynamic",
+        "phframe.planners.grtc_kinodynamic:GRTCKinodynamic",
+        "Steers what blocks the straight drive at the target to a free place, by OMPL's RRT or KPIECE1",
+        extra="ompl",
+    ),
+    _own(
         Kind.BACKEND,
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
