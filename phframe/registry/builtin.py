@@ -33,6 +33,12 @@ EXTENSIONS = [
         extra="ompl",
     ),
     _own(
+        Kind.PLANNER,
+        "kinodynamic-rrt",
+        "phframe.planners.kinodynamic_rrt:KinodynamicRRT",
+        "Grows a tree of states at rest by random pushes, simulated, until the target can be grasped",
+    ),
+    _own(
         Kind.BACKEND,
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
