@@ -205,13 +205,13 @@ class _KinodynamicClearing:
 
     def _grasp(self, node: int, leg: SteeredLeg, opening: float) -> Plan:
         """The plan that ends with a steered reach, simulated and judged by the task's goal."""
-        target, scene, task = self._scene.target, self._scene, self._task
-        out = float(scene.radii[scene.target_index]) + self._pushing.options.withdrawal
+        target, row, task = self._scene.target, self._scene.target_index, self._task
+        out = float(self._scene.radii[row]) + self._pushing.options.withdrawal
         action = steered_reach(leg, self._controls, opening, task.arm.min_opening, target, out)
         if task.rejects(action) is not None:
             return self._tree.plan(node, Status.FAILED, "the reach that was found was rejected")
         made = task.apply(self._tree[node].state, action)
-        decision = _noted(SteeredDecision("nothing blocks the straight drive", moved=target), [leg], made.state)
+        decision = _noted(SteeredDecision("nothing blocks the straight drive", moved=target), [leg], made.state, row)
         end = self._tree.child(node, action, made, decision)
         outcome = task.goal.assess(task.scene, made.state, Attempt(action, made.motion))
         plan = self._tree.plan(end, outcome.status, outcome.reason)
@@ -269,10 +269,17 @@ def _parked(state: State) -> State:
     return state.parked()
 
 
-def _noted(decision: SteeredDecision, legs: list[SteeredLeg], made: State) -> SteeredDecision:
-    """The decision with what the searches came to, and how far the whole action differs from them."""
-    drift = float(np.linalg.norm(legs[-1].state.positions - made.positions, axis=1).max())
-    return replace(decision, controls=sum(leg.tree.tried for leg in legs), distance=legs[-1].distance, drift=drift)
+def _noted(decision: SteeredDecision, legs: list[SteeredLeg], made: State, taken: int | None = None) -> SteeredDecision:
+    """The decision with what the searches came to, and how far the whole action differs, but for the object it takes."""
+    apart = np.linalg.norm(legs[-1].state.positions - made.positions, axis=1)
+    if taken is not None:
+        apart[taken] = 0.0
+    return replace(
+        decision,
+        controls=sum(leg.tree.tried for leg in legs),
+        distance=legs[-1].distance,
+        drift=float(apart.max()),
+    )
 
 
 def _fault(before: State, made: Transition) -> str:

@@ -59,7 +59,7 @@ class KinodynamicRRTOptions(Options):
         speed: Greatest velocity of an action, forwards and sideways (m/s).
         turn_speed: Greatest rate at which one turns the gripper (rad/s).
         shortest: Least duration of an action (s).
-        longest: Greatest duration of an action (s).
+        longest: Greatest duration of an action (s); where it is less than the least, all last that long.
         max_iterations: After which to give up.
     """
 
