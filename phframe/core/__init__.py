@@ -8,6 +8,7 @@ from phframe.core.episode import Episode, Step
 from phframe.core.errors import (
     ArmError,
     BudgetExceededError,
+    DocumentError,
     IncompatibleError,
     InputError,
     NotInstalledError,
@@ -69,6 +70,7 @@ __all__ = [
     "Cost",
     "Cylinder",
     "Decision",
+    "DocumentError",
     "Episode",
     "ExploredTree",
     "Fingers",

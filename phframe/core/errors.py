@@ -18,12 +18,12 @@ class InputError(PhframeError):
     """Something the user gave cannot be used: a file, an option, a name, a value."""
 
 
-class SceneError(InputError):
-    """A scene that cannot be: bad fields, objects overlapping or outside the shelf, no target.
+class DocumentError(InputError):
+    """A document that cannot be read, or does not say what it must.
 
     Args:
         problems: One sentence per thing that is wrong.
-        source: The file or name of the scene, if known.
+        source: The file or name of what holds it, if known.
     """
 
     def __init__(self, problems: str | Sequence[str], source: str | None = None) -> None:
@@ -31,8 +31,12 @@ class SceneError(InputError):
         self.source = source
         super().__init__((f"{source}: " if source else "") + "; ".join(self.problems))
 
-    def __reduce__(self) -> tuple[type[SceneError], tuple[tuple[str, ...], str | None]]:
+    def __reduce__(self) -> tuple[type[DocumentError], tuple[tuple[str, ...], str | None]]:
         return type(self), (self.problems, self.source)
+
+
+class SceneError(DocumentError):
+    """A scene that cannot be: bad fields, objects overlapping or outside the shelf, no target."""
 
 
 class OptionError(InputError):

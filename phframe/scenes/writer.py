@@ -16,8 +16,8 @@ from phframe.core.paths import user_path
 from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, ScenePart
 from phframe.scenes.shapes import figures_of
-from phframe.scenes.yaml_scalars import plain_scalar
-from phframe.scenes.yaml_tree import YamlTree
+from phframe.yaml.scalars import plain_scalar
+from phframe.yaml.tree import YamlTree
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*")
 
