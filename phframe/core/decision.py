@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import PlainSerializer, PlainValidator, TypeAdapter
 
+from phframe.core.advisor import Hint
 from phframe.core.value import Value
 
 _KINDS: dict[str, type[Decision]] = {}
@@ -29,6 +30,11 @@ class Decision(Value):
 
     why: str = ""
     deviations: tuple[str, ...] = ()
+
+    @property
+    def hint(self) -> Hint | None:
+        """What was answered when the planner asked what to do, where this is why; repeating the run needs it."""
+        return None
 
     def __init_subclass__(cls) -> None:
         super(Decision, cls).__init_subclass__()  # by name: slots make the class anew

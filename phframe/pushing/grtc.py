@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from phframe.core import ROOT, FloatArray, Infeasible, Phase, Plan, Task
+from phframe.core import ROOT, FloatArray, Hint, Infeasible, Phase, Plan, Task
 from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_search import PushSearch
 from phframe.pushing.straight_drive import StraightDrive, first_blocker, straight_drive
@@ -29,11 +29,18 @@ class StraightPushDecision(PushDecision):
 
     Attributes:
         place: Where it is to stand: x, y in the shelf frame (m).
+        advised: Whether the planner was told so when it asked.
     """
 
     kind: ClassVar[str] = "straight push"
 
     place: tuple[float, float] | None = None
+    advised: bool = False
+
+    @property
+    def hint(self) -> Hint | None:
+        """The object and its place, where the planner was told."""
+        return Hint(self.chosen[0], self.place) if self.advised and self.chosen and self.place is not None else None
 
 
 MoveAside = Callable[[int, StraightDrive, str], int | str]
@@ -89,8 +96,19 @@ class GrtcSearch:
             return f"the straight drive still meets {blocker} after {self._options.max_tries} simulated pushes"
         return move_aside(node, drive, blocker)
 
-    def push(self, node: int, drive: StraightDrive, name: str, place: FloatArray, why: str) -> int | str:
-        """Try to push an object to a place; the new node, or why not. What was simulated stays in the tree, closed."""
+    def push(
+        self, node: int, drive: StraightDrive, name: str, place: FloatArray, why: str, *, advised: bool = False
+    ) -> int | str:
+        """Try to push an object to a place; the new node, or why not. What was simulated stays in the tree, closed.
+
+        Args:
+            node: From which.
+            drive: At the target there.
+            name: Id of the object.
+            place: Where it is to stand ``(2,)`` (m).
+            why: For people.
+            advised: Whether the planner was told so when it asked.
+        """
         row, state = self.search.pushing.scene.index(name), self.search.state(node)
         action = self.pusher.push(state, row, place, float(drive.grasp.corridor.angle))
         if isinstance(action, Infeasible):
@@ -103,6 +121,7 @@ class GrtcSearch:
             members=(name,),
             chosen=(name,),
             place=(float(place[0]), float(place[1])),
+            advised=advised,
         )
         tried = self.search.try_push(node, decision, action)
         return self._judged(tried, row, place)
@@ -111,7 +130,7 @@ class GrtcSearch:
         """Close a push that did not do what it should; note what it met on the way in where it did."""
         found, tree, name = self.search.tree[node], self.search.tree, self.search.pushing.scene.ids[row]
         short = float(np.linalg.norm(found.state.positions[row] - place))
-        if not found.closed and short > self._options.goal_radius:
+        if not found.closed and not self.pusher.is_there(found.state, row, place):
             tree.close(node, f"{name} ended {short:.2f} m from its place")
         if closed := tree[node].closed:
             return f"{found.action.name if found.action else name}: {closed}"

@@ -107,20 +107,28 @@ class StraightPusher:
         far = np.linalg.norm(shuffled - position, axis=1) > self._options.near
         return np.concatenate([shuffled[~far], shuffled[far]])
 
+    def outside(self, row: int, place: FloatArray) -> str:
+        """Why a place ``(2,)`` (m) is not one of the shelf for an object; empty: it is."""
+        shelf, radius, (x, y) = self._scene.shelf, float(self._scene.radii[row]), place
+        if radius <= x <= shelf.depth - radius and radius <= y <= shelf.width - radius:
+            return ""
+        spans = f"x from {radius:g} to {shelf.depth - radius:g}, y from {radius:g} to {shelf.width - radius:g}"
+        return f"({x:g}, {y:g}) is not inside the shelf for {self._scene.ids[row]}: {spans}"
+
+    def is_there(self, state: State, row: int, place: FloatArray) -> bool:
+        """Whether an object is as near to a place ``(2,)`` (m) as a push to it must take it."""
+        return bool(np.linalg.norm(place - state.positions[row]) <= self._options.goal_radius)
+
     def refusal(self, state: State, row: int, place: FloatArray) -> str:
-        """Why an object cannot stand at a place ``(2,)``, or is there already; empty: it can."""
-        shelf, radius = self._scene.shelf, float(self._scene.radii[row])
-        x, y = (float(value) for value in place)
-        if not (radius <= x <= shelf.depth - radius and radius <= y <= shelf.width - radius):
-            return (
-                f"({x:g}, {y:g}) is not inside the shelf for {self._scene.ids[row]}: x from {radius:g} to "
-                f"{shelf.depth - radius:g}, y from {radius:g} to {shelf.width - radius:g}"
-            )
-        if float(np.linalg.norm(place - state.positions[row])) <= self._options.goal_radius:
-            return f"{self._scene.ids[row]} is there already, to within {self._options.goal_radius:g} m"
+        """Why an object is not to be pushed to a place ``(2,)`` (m) of the shelf; empty: it may."""
+        name = self._scene.ids[row]
+        if not state.on_board[row]:
+            return f"{name} has left the board"
+        if self.is_there(state, row, place):
+            return f"{name} is at ({place[0]:g}, {place[1]:g}) already, to within {self._options.goal_radius:g} m"
         taken = np.flatnonzero(self._taken(state, row, place[None])[0])
         names = ", ".join(self._scene.ids[other] for other in taken)
-        return f"({x:g}, {y:g}) is taken by {names}" if names else ""
+        return f"({place[0]:g}, {place[1]:g}) is too near to {names}" if names else ""
 
     def push(self, state: State, row: int, place: FloatArray, yaw: float) -> Action | Infeasible:
         """Straight in to behind an object, straight on until it is at its place, straight out; the fingers closed.

@@ -26,6 +26,12 @@ EXTENSIONS = [
         "Drives straight at the target, and pushes what that meets straight to a random free place",
     ),
     _own(
+        Kind.PLANNER,
+        "guided",
+        "phframe.planners.guided:Guided",
+        "Asks a person, or a file of hints, which object to push where, and pushes it there",
+    ),
+    _own(
         Kind.BACKEND,
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
