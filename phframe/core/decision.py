@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields
 from functools import cache
 from typing import Annotated, Any, ClassVar
 
-from pydantic import PlainSerializer, PlainValidator, TypeAdapter
+from pydantic import PlainSerializer, PlainValidator, TypeAdapter, ValidationError
 
 from phframe.core.advisor import Hint
 from phframe.core.value import Value
@@ -33,7 +33,10 @@ class Decision(Value):
 
     @property
     def hint(self) -> Hint | None:
-        """What was answered when the planner asked what to do, where this is why; repeating the run needs it."""
+        """What was answered when the planner asked what to do, where this is why; repeating the run needs it.
+
+        A type of decision that has one holds it in a field of this name, so that it is found in files whatever the type.
+        """
         return None
 
     def __init_subclass__(cls) -> None:
@@ -52,6 +55,14 @@ class UnknownDecision(Decision):
     kind: ClassVar[str] = "unknown"
 
     written: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def hint(self) -> Hint | None:
+        """The hint in what is written, if there is one."""
+        try:
+            return TypeAdapter(Hint | None).validate_python(self.written.get("hint"))
+        except ValidationError:
+            return None
 
 
 _KINDS[Decision.kind] = Decision

@@ -10,11 +10,8 @@ import numpy as np
 from pydantic import BeforeValidator
 
 from phframe.core import FloatArray, Hint, InputError, Plan, Planner, Question, State, Task, UnknownNameError
-from phframe.pushing import Corridor
-from phframe.pushing.grtc import GrtcSearch
+from phframe.pushing import Corridor, GrtcSearch, Obstruction, StraightPushOptions
 from phframe.pushing.hints import HintOption, read_hints
-from phframe.pushing.straight_drive import StraightDrive
-from phframe.pushing.straight_push import StraightPushOptions
 
 MOST_REFUSALS = 100
 """Answers in a row that cannot be used, after which nobody is asked again."""
@@ -52,46 +49,45 @@ class Guided(Planner[GuidedOptions]):
         """
         grtc = GrtcSearch(task, self.options)
         if self.options.hints is None:
-            return grtc.run(lambda node, drive, blocker: _asked(task, grtc, node, drive, blocker))
+            return grtc.run(lambda met: _asked(task, grtc, met))
         hints = self.options.hints
         for number, hint in enumerate(hints, start=1):
             _refuse(grtc, hint, number)
-        return grtc.run(lambda node, drive, blocker: self._next(grtc, node, drive, blocker))
+        return grtc.run(lambda met: self._next(grtc, met))
 
-    def _next(self, grtc: GrtcSearch, node: int, drive: StraightDrive, blocker: str) -> int | str:
+    def _next(self, grtc: GrtcSearch, met: Obstruction) -> int | str:
         """Do as the first hint says that is not done."""
         hints = self.options.hints or ()
-        number = next(_undone(grtc, hints, grtc.search.state(node)), None)
+        number = next(_undone(grtc, hints, met.state), None)
         if number is None:
-            return f"the straight drive still meets {blocker}, and all {len(hints)} hints are done"
+            return f"the straight drive still meets {met.blocker}, and all {len(hints)} hints are done"
         hint = hints[number]
-        pushed = _push(grtc, node, drive, Hint(hint.object, hint.to))
+        pushed = _push(grtc, met, Hint(hint.object, hint.to))
         return f"{_name(hint, number + 1)}: {pushed}" if isinstance(pushed, str) else pushed
 
 
-def _asked(task: Task, grtc: GrtcSearch, node: int, drive: StraightDrive, blocker: str) -> int | str:
+def _asked(task: Task, grtc: GrtcSearch, met: Obstruction) -> int | str:
     """Ask until an answer can be used."""
-    refusal, state = "", grtc.search.state(node)
+    refusal, corridor = "", _outline(met.drive.grasp.corridor)
     for _ in range(MOST_REFUSALS):
-        corridor = _outline(drive.grasp.corridor)
-        hint = task.ask(Question(task.scene, state, blocker, corridor, refusal))
+        hint = task.ask(Question(grtc.search.pushing.scene, met.state, met.blocker, corridor, refusal))
         if hint is None:
-            return f"no hint what to do about {blocker}, which is in the way: {REMEDY}"
-        pushed = _push(grtc, node, drive, hint)
+            return f"no hint what to do about {met.blocker}, which is in the way: {REMEDY}"
+        pushed = _push(grtc, met, hint)
         if isinstance(pushed, int):
             return pushed
         refusal = pushed
     return f"{MOST_REFUSALS} answers in a row could not be used; the last one: {refusal}"
 
 
-def _push(grtc: GrtcSearch, node: int, drive: StraightDrive, hint: Hint) -> int | str:
+def _push(grtc: GrtcSearch, met: Obstruction, hint: Hint) -> int | str:
     """Do as a hint says; why not, where that cannot be."""
     if mistake := _mistake(grtc, hint):
         return mistake
     place, row = np.array(hint.to), grtc.search.pushing.scene.index(hint.object)
-    if refusal := grtc.pusher.refusal(grtc.search.state(node), row, place):
+    if refusal := grtc.pusher.refusal(met.state, row, place):
         return refusal
-    return grtc.push(node, drive, hint.object, place, "a hint", advised=True)
+    return grtc.push(met, hint.object, place, hint)
 
 
 def _undone(grtc: GrtcSearch, hints: Iterable[HintOption], state: State) -> Iterator[int]:
