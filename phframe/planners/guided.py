@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BeforeValidator
 
-from phframe.core import FloatArray, Hint, InputError, Plan, Planner, Question, State, Task, UnknownNameError
+from phframe.core import (
+    FloatArray,
+    Hint,
+    InputError,
+    Plan,
+    Planner,
+    Question,
+    Scene,
+    SearchNode,
+    State,
+    Task,
+    UnknownNameError,
+)
 from phframe.pushing import Corridor, GrtcSearch, Obstruction, StraightPushOptions
 from phframe.pushing.hints import HintOption, read_hints
+from phframe.pushing.straight_push import outside_shelf
 
 MOST_REFUSALS = 100
 """Answers in a row that cannot be used, after which nobody is asked again."""
@@ -41,29 +54,35 @@ class Guided(Planner[GuidedOptions]):
 
     options_type = GuidedOptions
 
-    def search(self, task: Task) -> Plan:
-        """One push for each hint that can be used.
+    def check(self, scene: Scene) -> None:
+        """Refuse hints about objects that are not there, and places outside the shelf.
 
         Raises:
-            InputError: If a hint of the options is about an object that is not there, or a place outside the shelf.
+            InputError: Where it was written, what is wrong, and what there is.
         """
+        for number, hint in enumerate(self.options.hints or (), start=1):
+            if mistake := _mistake(scene, hint.object, np.array(hint.to)):
+                raise InputError(f"{_name(hint, number)}: {mistake}")
+
+    def search(self, task: Task) -> Plan:
+        """One push for each hint that can be used."""
         grtc = GrtcSearch(task, self.options)
         if self.options.hints is None:
             return grtc.run(lambda met: _asked(task, grtc, met))
-        hints = self.options.hints
-        for number, hint in enumerate(hints, start=1):
-            _refuse(grtc, hint, number)
-        return grtc.run(lambda met: self._next(grtc, met))
+        pending = _undone(grtc, self.options.hints, task.start)
+        return grtc.run(lambda met: self._next(grtc, pending, met))
 
-    def _next(self, grtc: GrtcSearch, met: Obstruction) -> int | str:
-        """Do as the first hint says that is not done."""
+    def _next(self, grtc: GrtcSearch, pending: Sequence[int], met: Obstruction) -> int | str:
+        """Do as the next hint says, of those that were to be done at the start."""
         hints = self.options.hints or ()
-        number = next(_undone(grtc, hints, met.state), None)
+        left = pending
+        for node in grtc.search.tree.path(met.node):
+            left = left[next(at for at, number in enumerate(left) if hints[number].hint == _hint(node)) + 1 :]
+        number = next((number for number in left if not _is_done(grtc, hints[number], met.state)), None)
         if number is None:
             return f"the straight drive still meets {met.blocker}, and all {len(hints)} hints are done"
-        hint = hints[number]
-        pushed = _push(grtc, met, Hint(hint.object, hint.to))
-        return f"{_name(hint, number + 1)}: {pushed}" if isinstance(pushed, str) else pushed
+        pushed = _push(grtc, met, hints[number].hint)
+        return f"{_name(hints[number], number + 1)}: {pushed}" if isinstance(pushed, str) else pushed
 
 
 def _asked(task: Task, grtc: GrtcSearch, met: Obstruction) -> int | str:
@@ -82,40 +101,42 @@ def _asked(task: Task, grtc: GrtcSearch, met: Obstruction) -> int | str:
 
 def _push(grtc: GrtcSearch, met: Obstruction, hint: Hint) -> int | str:
     """Do as a hint says; why not, where that cannot be."""
-    if mistake := _mistake(grtc, hint):
+    scene, place = grtc.search.pushing.scene, np.array(hint.to)
+    if mistake := _mistake(scene, hint.object, place):
         return mistake
-    place, row = np.array(hint.to), grtc.search.pushing.scene.index(hint.object)
-    if refusal := grtc.pusher.refusal(met.state, row, place):
+    if hint.object == scene.target:
+        return f"{hint.object} is the target: it is grasped, not pushed"
+    if refusal := grtc.pusher.refusal(met.state, scene.index(hint.object), place):
         return refusal
     return grtc.push(met, hint.object, place, hint)
 
 
-def _undone(grtc: GrtcSearch, hints: Iterable[HintOption], state: State) -> Iterator[int]:
+def _mistake(scene: Scene, name: str, place: FloatArray) -> str:
+    """Why an object can stand at a place ``(2,)`` (m) in no state of a scene; empty: it can."""
+    if name not in scene.ids:
+        return str(UnknownNameError("object", name, scene.ids))
+    return outside_shelf(scene, scene.index(name), place)
+
+
+def _undone(grtc: GrtcSearch, hints: Sequence[HintOption], state: State) -> list[int]:
     """Which hints are still to be done: those whose object is neither at that place nor at one of a later hint for it."""
     done: set[str] = set()
     undone: list[int] = []
     for number, hint in reversed(list(enumerate(hints))):
-        if grtc.pusher.is_there(state, grtc.search.pushing.scene.index(hint.object), np.array(hint.to)):
+        if _is_done(grtc, hint, state):
             done.add(hint.object)
         if hint.object not in done:
             undone.append(number)
-    return reversed(undone)
+    return undone[::-1]
 
 
-def _refuse(grtc: GrtcSearch, hint: HintOption, number: int) -> None:
-    """Refuse a hint that can never be done."""
-    if why := _mistake(grtc, Hint(hint.object, hint.to)):
-        raise InputError(f"{_name(hint, number)}: {why}")
+def _is_done(grtc: GrtcSearch, hint: HintOption, state: State) -> bool:
+    ids = grtc.search.pushing.scene.ids
+    return hint.object in ids and grtc.pusher.is_there(state, ids.index(hint.object), np.array(hint.to))
 
 
-def _mistake(grtc: GrtcSearch, hint: Hint) -> str:
-    """Why a hint can be done in no state; empty: it can."""
-    scene = grtc.search.pushing.scene
-    if hint.object not in scene.ids:
-        return str(UnknownNameError("object", hint.object, scene.ids))
-    if hint.object == scene.target:
-        return f"{hint.object} is the target: it is grasped, not pushed"
-    return grtc.pusher.outside(scene.index(hint.object), np.array(hint.to))
+def _hint(node: SearchNode) -> Hint | None:
+    return None if node.decision is None else node.decision.hint
 
 
 def _name(hint: HintOption, number: int) -> str:

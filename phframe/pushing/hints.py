@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from phframe.core import DocumentError
+from phframe.core import DocumentError, Hint
 from phframe.core.paths import path_shown
 from phframe.yaml.file import read_text
 from phframe.yaml.tree import YamlTree, parse_yaml
@@ -32,6 +32,11 @@ class HintOption(BaseModel):
     object: str
     to: tuple[float, float]
     where: str = Field(default="", exclude=True)
+
+    @property
+    def hint(self) -> Hint:
+        """What it says."""
+        return Hint(self.object, self.to)
 
 
 def read_hints(path: str | Path) -> list[dict[str, Any]]:

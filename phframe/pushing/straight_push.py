@@ -19,6 +19,7 @@ from phframe.core import (
     Options,
     Phase,
     PhaseRule,
+    Scene,
     State,
     rotation_matrix,
 )
@@ -98,21 +99,15 @@ class StraightPusher:
         there = np.linalg.norm(grid - state.positions[row], axis=1) <= self._options.goal_radius
         return np.asarray(grid[~(inside | there | self._taken(state, row, grid).any(axis=1))])
 
-    def outside(self, row: int, place: FloatArray) -> str:
-        """Why a place ``(2,)`` (m) is not one of the shelf for an object; empty: it is."""
-        shelf, radius, (x, y) = self._scene.shelf, float(self._scene.radii[row]), place
-        if radius <= x <= shelf.depth - radius and radius <= y <= shelf.width - radius:
-            return ""
-        spans = f"x from {radius:g} to {shelf.depth - radius:g}, y from {radius:g} to {shelf.width - radius:g}"
-        return f"({x:g}, {y:g}) is not inside the shelf for {self._scene.ids[row]}: {spans}"
-
     def is_there(self, state: State, row: int, place: FloatArray) -> bool:
         """Whether an object is as near to a place ``(2,)`` (m) as a push to it must take it."""
         return bool(np.linalg.norm(place - state.positions[row]) <= self._options.goal_radius)
 
     def refusal(self, state: State, row: int, place: FloatArray) -> str:
-        """Why an object is not to be pushed to a place ``(2,)`` (m) of the shelf; empty: it may."""
+        """Why an object is not to be pushed to a place ``(2,)`` (m); empty: it may."""
         name = self._scene.ids[row]
+        if outside := outside_shelf(self._scene, row, place):
+            return outside
         if not state.on_board[row]:
             return f"{name} has left the board"
         if self.is_there(state, row, place):
@@ -174,3 +169,12 @@ class StraightPusher:
         insert = PhaseRule(self._options.insert_speed, closed, Contacts.OBJECTS)
         sweep = PhaseRule(self._options.sweep_speed, closed, Contacts.OBJECTS)
         return {Phase.INSERT: insert, Phase.SWEEP: sweep, Phase.RETREAT: insert}
+
+
+def outside_shelf(scene: Scene, row: int, place: FloatArray) -> str:
+    """Why a place ``(2,)`` (m) is not one inside the shelf for an object; empty: it is."""
+    shelf, radius, (x, y) = scene.shelf, float(scene.radii[row]), place
+    if radius <= x <= shelf.depth - radius and radius <= y <= shelf.width - radius:
+        return ""
+    spans = f"x from {radius:g} to {shelf.depth - radius:g}, y from {radius:g} to {shelf.width - radius:g}"
+    return f"({x:g}, {y:g}) is not inside the shelf for {scene.ids[row]}: {spans}"

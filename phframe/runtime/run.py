@@ -98,6 +98,7 @@ def prepare(spec: RunSpec) -> Prepared:
     scene, noise = find_scene(spec.scene, spec.options.get("scenes")), Noise.of(spec.noise)
     parts = _identified(spec)
     made = {part: create(_kind(part), *parts[part]) for part in ("planner", "topology", "goal")}
+    made["planner"].check(scene)
     world = WorldSpec(scene, parts["backend"][0], parts["arm"][0], parts["backend"][1], parts["arm"][1])
     plan_world, inherited = _plan_world(world, parts)
     stored = {part: _differing(_kind(part), *parts[part], {}) for part in PARTS if not part.startswith("plan_")}
