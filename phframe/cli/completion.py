@@ -25,6 +25,11 @@ def scenes(incomplete: str) -> Offer:
     return _quietly(_scene_names, incomplete)
 
 
+def suites_and_scenes(incomplete: str) -> Offer:
+    """The suites of scenes, their scenes, and scene files."""
+    return [*names("scenes")(incomplete), *scenes(incomplete)]
+
+
 def scenes_and_runs(incomplete: str) -> Offer:
     """Scenes, and the directories of runs."""
     return [*_quietly(_runs, incomplete), *scenes(incomplete)]

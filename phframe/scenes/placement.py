@@ -1,4 +1,4 @@
-"""Where random objects stand: a target deep in the shelf, obstacles before it, some of them in its way.
+"""Where random objects stand: a target deep in the shelf, obstacles before or around it, some of them in its way.
 
 Everything is in whole tenths of a millimetre, with no function whose last digit depends on the machine's mathematics
 library, so the same seed gives the same places everywhere.
@@ -31,6 +31,9 @@ class Layout:
         gap: Least free space between objects, and to the walls.
         target_gap: Least free space around the target.
         corridor: Half-width of the corridor.
+        wall_gap: Least free space between the target and the side walls, if more than ``gap``.
+        beside: Greatest distance of the target's centre from the nearer side wall; None: it may stand anywhere between.
+        anywhere: Whether obstacles may stand beside and behind the target, too; else all are nearer to the mouth.
     """
 
     count: int
@@ -41,6 +44,9 @@ class Layout:
     gap: int
     target_gap: int
     corridor: int
+    wall_gap: int = 0
+    beside: int | None = None
+    anywhere: bool = False
 
     @property
     def target_depths(self) -> tuple[int, int]:
@@ -61,8 +67,7 @@ def place_objects(layout: Layout, draws: Draws) -> list[Point] | int:
 
 def _attempt(layout: Layout, draws: Draws) -> tuple[list[Point], int]:
     """One try at a whole scene, the target first: the places found and the number of candidates looked at."""
-    low, high = layout.target_depths
-    target = _candidate(layout, draws, low, high)
+    target = _target(layout, draws)
     if target is None or target[0] ** 2 + target[1] ** 2 <= layout.corridor**2:  # no corridor leads there
         return [], 1
     places, used = [target], 1
@@ -75,10 +80,20 @@ def _attempt(layout: Layout, draws: Draws) -> tuple[list[Point], int]:
     return places, used
 
 
+def _target(layout: Layout, draws: Draws) -> Point | None:
+    (low, high), margin = layout.target_depths, layout.radius + max(layout.gap, layout.wall_gap)
+    greatest = layout.width - margin if layout.beside is None else min(layout.beside, layout.width - margin)
+    if low > high or margin > greatest:
+        return None
+    x, y = draws.between(low, high), draws.between(margin, greatest)
+    return (x, layout.width - y) if layout.beside is not None and draws.between(0, 1) else (x, y)
+
+
 def _obstacle(layout: Layout, draws: Draws, places: list[Point], *, blocking: bool) -> tuple[Point | None, int]:
-    target = places[0]
+    target, nearest = places[0], layout.radius + layout.gap
+    deepest = layout.depth - nearest if layout.anywhere else target[0] - 1
     for tries in range(1, TRIES_PER_OBJECT + 1):
-        place = _candidate(layout, draws, layout.radius + layout.gap, target[0] - 1)
+        place = _candidate(layout, draws, nearest, deepest)
         if place is None:
             break
         if _is_free(layout, place, places) and not (blocking and not in_corridor(layout, place, target)):
