@@ -20,19 +20,11 @@ FORMAT = 1
 
 def overview_as_json(overview: SceneOverview) -> dict[str, Any]:
     """One object: ``format``, the ``scene`` as in its file, its ``coverage``, and its ``corridor``."""
-    corridor = overview.corridor
-    found = isinstance(corridor, Corridor)
     return {
         "format": FORMAT,
         "scene": scene_content(overview.scene),
         "coverage": overview.scene.coverage,
-        "corridor": {
-            "half_width": overview.half_width,
-            "angle": corridor.angle if found else None,
-            "beside": corridor.beside if found else None,
-            "members": list(overview.members),
-            "reason": "" if found else corridor.reason,
-        },
+        "corridor": _corridor_as_json(overview),
     }
 
 
@@ -44,6 +36,15 @@ def overview_as_table(overview: SceneOverview) -> RenderableType:
     for item in scene.objects:
         rows.add_row(item.id, *(f"{v:.4f}" for v in item.position), _size(item), _part(overview, item))
     return Group(heading, rows)
+
+
+def _corridor_as_json(overview: SceneOverview) -> dict[str, Any]:
+    corridor, members = overview.corridor, list(overview.members)
+    if isinstance(corridor, Corridor):
+        angle, beside, reason = corridor.angle, corridor.beside, ""
+    else:
+        angle, beside, reason = None, None, corridor.reason
+    return {"half_width": overview.half_width, "angle": angle, "beside": beside, "members": members, "reason": reason}
 
 
 def _shelf(scene: Scene) -> str:

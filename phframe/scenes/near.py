@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import pairwise
+
 from pydantic import Field
 
 from phframe.scenes.draws import Draws
@@ -26,9 +29,9 @@ class NearOptions(RandomOptions):
 class NearScenes(SeededSuite[NearOptions]):
     """Scenes from seeds whose target is near a side wall: ``near/7`` is that of seed 7.
 
-    Its distance from the wall is evenly spread from where fingers hardly fit between (0.04 m) to 1.5 corridor half-widths
-    (0.18 m), beside the south and the north wall alike: the corridor is angled in most of them. Where it is straight,
-    obstacles between it and the wall have little place to go, or none.
+    With w the corridor's half-width and r the radius of the objects, a third of the targets are nearer to the wall than w,
+    down to where fingers hardly fit between: their corridors are angled. A third are from w to w + r from it: their
+    corridors are straight, and obstacles beside them have no place to go. The others are from w + r to 1.5 w from it.
     """
 
     options_type = NearOptions
@@ -40,10 +43,15 @@ class NearScenes(SeededSuite[NearOptions]):
     def layout(self, draws: Draws) -> Layout:
         """The options in whole tenths of a millimetre."""
         options = self.options
-        return Layout(
-            count=options.count,
-            blocking=min(options.blocking, options.count),
-            wall_gap=rounded_up(options.wall_gap),
-            beside=rounded_down(options.beside),
-            **self.lengths(),
-        )
+        blocking, wall_gap = min(options.blocking, options.count), rounded_up(options.wall_gap)
+        layout = Layout(count=options.count, blocking=blocking, wall_gap=wall_gap, **self.lengths())
+        return replace(layout, bands=_bands(layout, rounded_down(options.beside)))
+
+
+def _bands(layout: Layout, beside: int) -> tuple[tuple[int, int], ...]:
+    """Least and greatest distances from the wall: less than w, from w to w + r, and from there to ``beside``."""
+    margin, w = layout.target_margin, layout.corridor
+    edges = (margin, w, w + layout.radius, beside + 1)
+    farthest = min(beside, layout.width - margin)
+    found = ((max(low, margin), min(high - 1, farthest)) for low, high in pairwise(edges))
+    return tuple((low, high) for low, high in found if low <= high)

@@ -32,7 +32,8 @@ class Layout:
         target_gap: Least free space around the target.
         corridor: Half-width of the corridor.
         wall_gap: Least free space between the target and the side walls, if more than ``gap``.
-        beside: Greatest distance of the target's centre from the nearer side wall; None: it may stand anywhere between.
+        bands: Least and greatest distance of the target's centre from a side wall; one of them, and one of the walls, is
+            drawn. None: it may stand anywhere between the walls.
         anywhere: Whether obstacles may stand beside and behind the target, too; else all are nearer to the mouth.
     """
 
@@ -45,13 +46,18 @@ class Layout:
     target_gap: int
     corridor: int
     wall_gap: int = 0
-    beside: int | None = None
+    bands: tuple[tuple[int, int], ...] | None = None
     anywhere: bool = False
 
     @property
     def target_depths(self) -> tuple[int, int]:
         """Least and greatest x of the target: between two thirds and nine tenths of the shelf's depth."""
         return 2 * self.depth // 3, min(9 * self.depth // 10, self.depth - self.radius - self.gap)
+
+    @property
+    def target_margin(self) -> int:
+        """Least distance of the target's centre from the side walls."""
+        return self.radius + max(self.gap, self.wall_gap)
 
 
 def place_objects(layout: Layout, draws: Draws) -> list[Point] | int:
@@ -81,12 +87,14 @@ def _attempt(layout: Layout, draws: Draws) -> tuple[list[Point], int]:
 
 
 def _target(layout: Layout, draws: Draws) -> Point | None:
-    (low, high), margin = layout.target_depths, layout.radius + max(layout.gap, layout.wall_gap)
-    greatest = layout.width - margin if layout.beside is None else min(layout.beside, layout.width - margin)
-    if low > high or margin > greatest:
+    (low, high), margin = layout.target_depths, layout.target_margin
+    if low > high or margin > layout.width - margin or layout.bands == ():
         return None
-    x, y = draws.between(low, high), draws.between(margin, greatest)
-    return (x, layout.width - y) if layout.beside is not None and draws.between(0, 1) else (x, y)
+    x = draws.between(low, high)
+    if layout.bands is None:
+        return x, draws.between(margin, layout.width - margin)
+    y = draws.between(*layout.bands[draws.between(0, len(layout.bands) - 1)])
+    return x, layout.width - y if draws.between(0, 1) else y
 
 
 def _obstacle(layout: Layout, draws: Draws, places: list[Point], *, blocking: bool) -> tuple[Point | None, int]:
