@@ -67,8 +67,7 @@ def _corridor(overview: SceneOverview) -> str:
     if not isinstance(corridor, Corridor):
         return f"corridor: none, since {corridor.reason}"
     way = "straight" if corridor.beside is None else f"at {math.degrees(corridor.angle):.1f} degrees"
-    inside = f"{len(overview.members)} obstacles in it" if overview.members else "empty"
-    return f"corridor: {way}, half-width {overview.half_width:g} m, {inside}"
+    return f"corridor: {way}, half-width {overview.half_width:g} m, obstacles in it: {len(overview.members)}"
 
 
 def _size(item: SceneObject) -> str:

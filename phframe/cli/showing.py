@@ -45,10 +45,11 @@ def run(name: str | None, out: str | None, options: Mapping[str, str], *, as_jso
 
 
 def _is_scene(name: str) -> bool:
-    """Whether a scene is meant and not a suite, by name or as a class in a file."""
-    if is_file(name) or name in [entry.name for entry in catalogue().extensions(Kind.SCENES)]:
+    """Whether a scene is meant, and not a suite: by name, as ``distribution:name``, or as a class in a file."""
+    suites = [entry.name for entry in catalogue().extensions(Kind.SCENES)]
+    if is_file(name) or name in suites:
         return False
-    return "/" in name or is_file_spec(name)
+    return "/" in name or is_file_spec(name) or ":" not in name
 
 
 def _show(name: str, out: str | None, options: Mapping[str, str], *, as_json: bool, force: bool) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import warnings
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,8 @@ from phframe.recorders.scene_overview import SceneOverview, scene_overview
 
 SIZE, DOTS = (6.4, 6.8), 120
 """Of the picture: inches, and dots per inch."""
-WALL = 0.012
-"""Thickness of a drawn wall (m)."""
+WALL, OUTSIDE = 0.02, 0.1
+"""Thickness of a drawn wall, and what is shown before the mouth, in the shelf's larger side."""
 WOOD, STRIP, STRIP_EDGE = "#5a4632", "#dcebf7", "#5898ce"
 TARGET, MEMBER, OBSTACLE, INK = "#f0a020", "#7fb2dd", "#c3cad2", "#1f2933"
 _SMALLEST, _LARGEST = 3.0, 9.0
@@ -36,7 +37,8 @@ def scene_picture(scene: Scene) -> bytes:
     draw_scene(overview, axes)
     figure.legend(handles=_legend(overview), loc="outside lower center", ncols=4, frameon=False, fontsize=9)
     content = io.BytesIO()
-    figure.savefig(content, dpi=DOTS, format="png")
+    with warnings.catch_warnings(action="ignore", category=UserWarning):  # letters that the font lacks are boxes
+        figure.savefig(content, dpi=DOTS, format="png")
     return content.getvalue()
 
 
@@ -50,33 +52,31 @@ def draw_scene(scene: Scene | SceneOverview, axes: Any, *, ids: bool = True) -> 
     """
     overview = scene if isinstance(scene, SceneOverview) else scene_overview(scene)
     corners = _corners(overview.corridor) if isinstance(overview.corridor, Corridor) else np.empty((0, 2))
-    draw_shelf(overview.scene.shelf, axes, before=max(0.06, *(-corners[:, 0] + WALL)) if len(corners) else 0.06)
+    draw_shelf(overview.scene.shelf, axes, before=float(-corners[:, 0].min(initial=0.0)))
     if len(corners):
         axes.fill(*corners.T, facecolor=STRIP, edgecolor=STRIP_EDGE, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
     for item in overview.scene.objects:
         _draw_object(overview, item, axes, label=ids)
 
 
-def draw_shelf(shelf: Shelf, axes: Any, *, before: float = 0.06) -> None:
+def draw_shelf(shelf: Shelf, axes: Any, *, before: float = 0.0) -> None:
     """Draw the walls, the mouth and an arrow that goes in, and set the limits of the axes.
 
     Args:
         shelf: The shelf.
         axes: Of matplotlib, as for ``draw_scene``.
-        before: How far the axes reach out of the mouth (m).
+        before: How far before the mouth there is something to be seen (m).
     """
     depth, width = shelf.depth, shelf.width
-    south, north, back = (
-        [(0.0, -WALL), (depth + WALL, -WALL), (depth + WALL, 0.0), (0.0, 0.0)],
-        [(0.0, width), (depth + WALL, width), (depth + WALL, width + WALL), (0.0, width + WALL)],
-        [(depth, -WALL), (depth + WALL, -WALL), (depth + WALL, width + WALL), (depth, width + WALL)],
-    )
-    for wall in (south, north, back):
-        axes.fill(*np.array(wall).T, color=WOOD, linewidth=0.0, zorder=4)
+    wall, outside = WALL * max(depth, width), OUTSIDE * max(depth, width)
+    inner = [(0.0, 0.0), (depth, 0.0), (depth, width), (0.0, width)]
+    outer = [(0.0, width + wall), (depth + wall, width + wall), (depth + wall, -wall), (0.0, -wall)]
+    axes.fill(*np.array([*inner, *outer]).T, color=WOOD, linewidth=0.0, zorder=4)
     axes.plot([0.0, 0.0], [0.0, width], color=WOOD, linewidth=1.0, linestyle=(0, (5, 4)), zorder=2)
     arrow = {"arrowstyle": "-|>", "color": WOOD}
-    axes.annotate("", xy=(-0.005, width / 2.0), xytext=(-0.05, width / 2.0), arrowprops=arrow)
-    axes.set(aspect="equal", xlim=(-before, depth + 2.0 * WALL), ylim=(-2.0 * WALL, width + 2.0 * WALL))
+    axes.annotate("", xy=(-0.1 * outside, width / 2.0), xytext=(-0.8 * outside, width / 2.0), arrowprops=arrow)
+    out = max(outside, before + wall)
+    axes.set(aspect="equal", xlim=(-out, depth + 2.0 * wall), ylim=(-2.0 * wall, width + 2.0 * wall))
 
 
 def outline_in_shelf(item: SceneObject) -> FloatArray:

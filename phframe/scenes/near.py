@@ -21,7 +21,7 @@ class NearOptions(RandomOptions):
 
     beside: Length = Field(
         0.18,
-        description="greatest distance of the target's centre from the nearer side wall (m): 1.5 corridor half-widths",
+        description="greatest distance of the target's centre from the nearer side wall (m)",
     )
     wall_gap: Space = Field(0.01, description="least space between the target and the side wall (m)")
 
