@@ -60,7 +60,14 @@ def _quietly(offer: Callable[[], Iterable[tuple[str, str]]], incomplete: str) ->
 def _registered(kind: str) -> Offer:
     from phframe.registry import Kind, catalogue
 
-    return [(entry.name, entry.extension.summary) for entry in catalogue().extensions(Kind(kind))]
+    return [
+        offer
+        for entry in catalogue().extensions(Kind(kind))
+        for offer in [
+            (entry.name, entry.extension.summary),
+            *((f"{entry.name}[{options}]", summary) for options, summary in entry.extension.variants),
+        ]
+    ]
 
 
 def _scene_names() -> Offer:
