@@ -8,6 +8,7 @@ from phframe.pushing.corridor import Corridor, corridor_half_width, find_corrido
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.grasp import Grasp, grasp_action
 from phframe.pushing.grouping import Rectangle, bounding_rectangle, closest_component
+from phframe.pushing.grtc import GrtcDeviation, GrtcSearch, Obstruction, StraightPushDecision
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
 from phframe.pushing.push_decision import PushDecision
@@ -16,6 +17,7 @@ from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, is_unch
 from phframe.pushing.pushing import Pushing
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
 from phframe.pushing.straight_drive import StraightDrive, first_blocker, straight_drive
+from phframe.pushing.straight_push import StraightPusher, StraightPushOptions
 from phframe.pushing.sweep import Sweep, push_action
 from phframe.pushing.sweep_generator import SweepGenerator
 
@@ -26,6 +28,9 @@ __all__ = [
     "Corridor",
     "Deviation",
     "Grasp",
+    "GrtcDeviation",
+    "GrtcSearch",
+    "Obstruction",
     "Proposal",
     "PushDecision",
     "PushProblem",
@@ -36,6 +41,9 @@ __all__ = [
     "Retrieve",
     "RetrieveOptions",
     "StraightDrive",
+    "StraightPushDecision",
+    "StraightPushOptions",
+    "StraightPusher",
     "Sweep",
     "SweepGenerator",
     "bounding_rectangle",

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from phframe.core import ROOT, FloatArray, Infeasible, Phase, Plan, Task
+from phframe.core import ROOT, FloatArray, Hint, Infeasible, Phase, Plan, State, Task
 from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_search import PushSearch
 from phframe.pushing.straight_drive import StraightDrive, first_blocker, straight_drive
@@ -29,15 +29,34 @@ class StraightPushDecision(PushDecision):
 
     Attributes:
         place: Where it is to stand: x, y in the shelf frame (m).
+        hint: What the planner was told when it asked; None: it did not.
     """
 
     kind: ClassVar[str] = "straight push"
 
     place: tuple[float, float] | None = None
+    hint: Hint | None = None
 
 
-MoveAside = Callable[[int, StraightDrive, str], int | str]
-"""From a node, the straight drive at the target there, and what it meets first, to the node to go on from, or why not."""
+@dataclass(frozen=True, slots=True)
+class Obstruction:
+    """What is in the way at a node of the search.
+
+    Attributes:
+        node: The node.
+        state: The world there.
+        drive: The straight drive at the target.
+        blocker: Id of the object that it meets first.
+    """
+
+    node: int
+    state: State
+    drive: StraightDrive
+    blocker: str
+
+
+MoveAside = Callable[[Obstruction], int | str]
+"""The node to go on from once something was moved aside, or why that fails."""
 
 
 class GrtcSearch:
@@ -72,7 +91,7 @@ class GrtcSearch:
                 return self.search.fail(node, _reason(drive, blocker))
             if blocker is None:
                 return self.search.grasp(node, drive.grasp)
-            moved = self._moved(node, drive, blocker, move_aside)
+            moved = self._moved(Obstruction(node, state, drive, blocker), move_aside)
             if isinstance(moved, str):
                 return self.search.fail(node, moved)
             node = moved
@@ -82,36 +101,44 @@ class GrtcSearch:
         """Whether as many pushes were simulated as may be."""
         return len(self.search.tree) > self._options.max_tries
 
-    def _moved(self, node: int, drive: StraightDrive, blocker: str, move_aside: MoveAside) -> int | str:
-        if (actions := self.search.tree.depth(node)) >= self._options.max_actions:
-            return f"the straight drive still meets {blocker} after {actions} actions"
+    def _moved(self, met: Obstruction, move_aside: MoveAside) -> int | str:
+        if (actions := self.search.tree.depth(met.node)) >= self._options.max_actions:
+            return f"the straight drive still meets {met.blocker} after {actions} actions"
         if self.spent:
-            return f"the straight drive still meets {blocker} after {self._options.max_tries} simulated pushes"
-        return move_aside(node, drive, blocker)
+            return f"the straight drive still meets {met.blocker} after {self._options.max_tries} simulated pushes"
+        return move_aside(met)
 
-    def push(self, node: int, drive: StraightDrive, name: str, place: FloatArray, why: str) -> int | str:
-        """Try to push an object to a place; the new node, or why not. What was simulated stays in the tree, closed."""
-        row, state = self.search.pushing.scene.index(name), self.search.state(node)
-        action = self.pusher.push(state, row, place, float(drive.grasp.corridor.angle))
+    def push(self, met: Obstruction, name: str, place: FloatArray, hint: Hint | None = None) -> int | str:
+        """Try to push an object to a place; the new node, or why not. What was simulated stays in the tree, closed.
+
+        Args:
+            met: Where it is tried, and why.
+            name: Id of the object.
+            place: Where it is to stand ``(2,)`` (m).
+            hint: What the planner was told, if it asked.
+        """
+        row, corridor = self.search.pushing.scene.index(name), met.drive.grasp.corridor
+        action = self.pusher.push(met.state, row, place, corridor.angle)
         if isinstance(action, Infeasible):
             return action.reason
         if (rejection := self._task.rejects(action)) is not None:
             return f"{action.name} was rejected before: {rejection.reason}"
         decision = StraightPushDecision(
-            why,
-            corridor=drive.grasp.corridor,
+            f"the straight drive meets {met.blocker} first",
+            corridor=corridor,
             members=(name,),
             chosen=(name,),
             place=(float(place[0]), float(place[1])),
+            hint=hint,
         )
-        tried = self.search.try_push(node, decision, action)
+        tried = self.search.try_push(met.node, decision, action)
         return self._judged(tried, row, place)
 
     def _judged(self, node: int, row: int, place: FloatArray) -> int | str:
         """Close a push that did not do what it should; note what it met on the way in where it did."""
         found, tree, name = self.search.tree[node], self.search.tree, self.search.pushing.scene.ids[row]
         short = float(np.linalg.norm(found.state.positions[row] - place))
-        if not found.closed and short > self._options.goal_radius:
+        if not found.closed and not self.pusher.is_there(found.state, row, place):
             tree.close(node, f"{name} ended {short:.2f} m from its place")
         if closed := tree[node].closed:
             return f"{found.action.name if found.action else name}: {closed}"

@@ -19,6 +19,7 @@ from phframe.core import (
     Options,
     Phase,
     PhaseRule,
+    Scene,
     State,
     rotation_matrix,
 )
@@ -32,15 +33,13 @@ Length = Annotated[float, Field(gt=0.0, le=1.0)]
 
 
 class StraightPushOptions(Options):
-    """Figures of GRTC with straight pushes.
+    """Figures that planners which push single objects straight to a place have in common.
 
     Attributes:
         half_width: Of the corridor, w (m); ``auto``: half the arm's link, the largest obstacle's radius and 4 mm.
         max_actions: Pushes after which to give up.
         max_tries: Pushes simulated in all after which to give up.
-        grid: Spacing of the places that are considered (m).
         apart: Room between an object at its new place and every other one (m); 0.01 keeps centres 0.07 apart at radius 0.03.
-        near: Places no farther than this from where the object stands come first (m).
         behind: Distance from the object's centre at which the fingertip begins to push (radii).
         goal_radius: How far from its place an object may end (m).
         insert_speed: Going in and out (m/s).
@@ -55,9 +54,7 @@ class StraightPushOptions(Options):
     half_width: Length | Literal["auto"] = 0.12
     max_actions: Annotated[int, Field(ge=1, le=1000)] = 30
     max_tries: Annotated[int, Field(ge=1, le=100_000)] = 300
-    grid: Annotated[float, Field(ge=0.005, le=0.5)] = 0.03
     apart: Clearance = 0.01
-    near: Length = 0.2
     behind: Annotated[float, Field(ge=1.5, le=10.0)] = 2.1
     goal_radius: Length = 0.05
     insert_speed: Speed = 0.25
@@ -86,41 +83,38 @@ class StraightPusher:
         self._pushing, self._scene, self._options = pushing, pushing.scene, options
         self._view = ArmView(self._scene.shelf, pushing.task.arm.closed, options.wall_clearance)
 
-    def free_places(self, state: State, row: int, drive: StraightDrive) -> FloatArray:
-        """Places ``(k, 2)`` for an object (m): on the grid, apart from all others, outside the corridor, off the drive.
+    def free_places(self, state: State, row: int, drive: StraightDrive, spacing: float) -> FloatArray:
+        """Places ``(k, 2)`` for an object (m): on a grid, apart from all others, outside the corridor, off the drive.
 
         Args:
             state: The world at rest.
             row: Of the object.
             drive: At the target.
+            spacing: Of the grid (m).
         """
         shelf, radius = self._scene.shelf, float(self._scene.radii[row])
-        axes = [np.arange(radius, length - radius + 1e-9, self._options.grid) for length in (shelf.depth, shelf.width)]
+        axes = [np.arange(radius, length - radius + 1e-9, spacing) for length in (shelf.depth, shelf.width)]
         grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
         inside = drive.grasp.corridor.contains(grid) | drive.meets(grid, radius)
         there = np.linalg.norm(grid - state.positions[row], axis=1) <= self._options.goal_radius
         return np.asarray(grid[~(inside | there | self._taken(state, row, grid).any(axis=1))])
 
-    def in_order(self, places: FloatArray, position: FloatArray, rng: np.random.Generator) -> FloatArray:
-        """Places ``(k, 2)`` in random order, those near a position ``(2,)`` first (m)."""
-        shuffled = places[rng.permutation(len(places))]
-        far = np.linalg.norm(shuffled - position, axis=1) > self._options.near
-        return np.concatenate([shuffled[~far], shuffled[far]])
+    def is_there(self, state: State, row: int, place: FloatArray) -> bool:
+        """Whether an object is as near to a place ``(2,)`` (m) as a push to it must take it."""
+        return bool(np.linalg.norm(place - state.positions[row]) <= self._options.goal_radius)
 
     def refusal(self, state: State, row: int, place: FloatArray) -> str:
-        """Why an object cannot stand at a place ``(2,)``, or is there already; empty: it can."""
-        shelf, radius = self._scene.shelf, float(self._scene.radii[row])
-        x, y = (float(value) for value in place)
-        if not (radius <= x <= shelf.depth - radius and radius <= y <= shelf.width - radius):
-            return (
-                f"({x:g}, {y:g}) is not inside the shelf for {self._scene.ids[row]}: x from {radius:g} to "
-                f"{shelf.depth - radius:g}, y from {radius:g} to {shelf.width - radius:g}"
-            )
-        if float(np.linalg.norm(place - state.positions[row])) <= self._options.goal_radius:
-            return f"{self._scene.ids[row]} is there already, to within {self._options.goal_radius:g} m"
+        """Why an object is not to be pushed to a place ``(2,)`` (m); empty: it may."""
+        name = self._scene.ids[row]
+        if outside := outside_shelf(self._scene, row, place):
+            return outside
+        if not state.on_board[row]:
+            return f"{name} has left the board"
+        if self.is_there(state, row, place):
+            return f"{name} is at ({place[0]:g}, {place[1]:g}) already, to within {self._options.goal_radius:g} m"
         taken = np.flatnonzero(self._taken(state, row, place[None])[0])
         names = ", ".join(self._scene.ids[other] for other in taken)
-        return f"({x:g}, {y:g}) is taken by {names}" if names else ""
+        return f"({place[0]:g}, {place[1]:g}) is too near to {names}" if names else ""
 
     def push(self, state: State, row: int, place: FloatArray, yaw: float) -> Action | Infeasible:
         """Straight in to behind an object, straight on until it is at its place, straight out; the fingers closed.
@@ -175,3 +169,12 @@ class StraightPusher:
         insert = PhaseRule(self._options.insert_speed, closed, Contacts.OBJECTS)
         sweep = PhaseRule(self._options.sweep_speed, closed, Contacts.OBJECTS)
         return {Phase.INSERT: insert, Phase.SWEEP: sweep, Phase.RETREAT: insert}
+
+
+def outside_shelf(scene: Scene, row: int, place: FloatArray) -> str:
+    """Why a place ``(2,)`` (m) is not one inside the shelf for an object; empty: it is."""
+    shelf, radius, (x, y) = scene.shelf, float(scene.radii[row]), place
+    if radius <= x <= shelf.depth - radius and radius <= y <= shelf.width - radius:
+        return ""
+    spans = f"x from {radius:g} to {shelf.depth - radius:g}, y from {radius:g} to {shelf.width - radius:g}"
+    return f"({x:g}, {y:g}) is not inside the shelf for {scene.ids[row]}: {spans}"

@@ -39,6 +39,12 @@ EXTENSIONS = [
         "Grows a tree of states at rest by random pushes, simulated, until the target can be grasped",
     ),
     _own(
+        Kind.PLANNER,
+        "guided",
+        "phframe.planners.guided:Guided",
+        "Asks a person, or a file of hints, which object to push where, and pushes it there",
+    ),
+    _own(
         Kind.BACKEND,
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
@@ -100,6 +106,24 @@ EXTENSIONS = [
         "random",
         "phframe.scenes.generator:RandomScenes",
         "Scenes made from a seed: obstacles in front of a target deep in the shelf",
+    ),
+    _own(
+        Kind.SCENES,
+        "dense",
+        "phframe.scenes.dense:DenseScenes",
+        "Crowded scenes made from a seed: 20 to 40 objects all around a target deep in the shelf",
+    ),
+    _own(
+        Kind.SCENES,
+        "near",
+        "phframe.scenes.near:NearScenes",
+        "Scenes made from a seed: a target near a side wall, obstacles in front of it",
+    ),
+    _own(
+        Kind.SCENES,
+        "paper",
+        "phframe.scenes.paper:Paper",
+        "121 problems like those of the paper's experiment: basic, ten simple, ten of Papallas, 100 random",
     ),
     _own(
         Kind.RECORDER,
