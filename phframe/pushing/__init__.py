@@ -12,7 +12,7 @@ from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
 from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_problem import PushProblem
-from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, is_unchanged
+from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, by_direction, is_unchanged
 from phframe.pushing.pushing import Pushing
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
 from phframe.pushing.sweep import Sweep, push_action
@@ -37,6 +37,7 @@ __all__ = [
     "Sweep",
     "SweepGenerator",
     "bounding_rectangle",
+    "by_direction",
     "closest_component",
     "corridor_half_width",
     "find_corridor",

@@ -20,6 +20,12 @@ EXTENSIONS = [
         Kind.PLANNER, "ooa", "phframe.planners.ooa:OOA", "Pushes one obstacle at a time, the closest first; no grouping"
     ),
     _own(
+        Kind.PLANNER,
+        "phis",
+        "phframe.planners.phis:PHIS",
+        "Searches the pushes of the closest group at every persistent radius for the least total pushing time",
+    ),
+    _own(
         Kind.BACKEND,
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
