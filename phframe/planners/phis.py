@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
@@ -79,22 +78,14 @@ class _BreadthFirst:
             self._grasp(node, step)
         elif isinstance(step, Infeasible):
             self._tree.close(node, step.reason)
-        elif why := self._hopeless(node, step):
+        elif why := self._search.hopeless(node, step):
             self._tree.close(node, why)
         elif choices := list(self._groups(node, step)):
+            self._left[node] = len(step.members)
             return choices
         else:
             self._tree.close(node, "no sweep fits beside the closest component")
         return []
-
-    def _hopeless(self, node: int, problem: PushProblem) -> str:
-        """Why nothing is pushed at a node, if so."""
-        self._left[node] = len(problem.members)
-        if (actions := self._tree.depth(node)) >= self._options.max_actions:
-            return f"the corridor is not empty after {actions} actions"
-        if (idle := self._search.idle_pushes(node, problem)) >= self._options.patience:
-            return f"the last {idle} pushes took nothing out of the corridor"
-        return ""
 
     def _groups(self, node: int, problem: PushProblem) -> Iterator[_Choice]:
         """The sweeps of the closest component at each radius; of radii whose first sweep is the same, the smallest counts."""
@@ -167,21 +158,11 @@ class _BreadthFirst:
     def _result(self) -> Plan:
         """The quickest plan that was found, else one whose grasp does not succeed, else how far it got."""
         if (found := self._best or self._failed_grasp) is None:
-            return self._failure()
+            nearest = min(self._left, key=lambda node: (self._left[node], node), default=ROOT)
+            return self._search.exhausted(nearest, "" if self._room else f"max_nodes={self._options.max_nodes}")
         end, outcome = found
         self._tree.close_others(end, "leads to no quicker plan" if self._best else "leads to no grasp")
         return self._tree.plan(end, outcome.status, outcome.reason)
-
-    def _failure(self) -> Plan:
-        """The plan that leads to the fewest obstacles, and what became of the others."""
-        if not (why := self._tree[ROOT].closed):
-            ends = Counter(each.closed for node in range(len(self._tree)) if (each := self._tree[node]).closed)
-            listed = ", ".join(f"{why} ({number})" for why, number in ends.most_common(3))
-            limit = "" if self._room else f"; ended by max_nodes={self._options.max_nodes}"
-            why = f"none of {len(self._tree) - 1} pushes leads to a grasp: {listed}{limit}"
-        end = min(self._left, key=lambda node: (self._left[node], node), default=ROOT)
-        self._tree.close_others(end, "leads to no grasp")
-        return self._search.fail(end, why)
 
 
 def _least_time(action: Action) -> float:

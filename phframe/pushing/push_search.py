@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
 
 from phframe.core import (
+    ROOT,
     Action,
     Assessment,
     Attempt,
@@ -121,16 +123,41 @@ class PushSearch:
         rejected = f" (rejected before: {'; '.join(why)})" if why else ""
         return self.tree.plan(node, Status.FAILED, reason + rejected)
 
-    def idle_pushes(self, node: int, problem: PushProblem) -> int:
-        """How many pushes ago, on the path to a node, the obstacles in the way were first as few as they ever were.
+    def exhausted(self, node: int, limit: str = "") -> Plan:
+        """The plan that ends at a node without success, where nothing else is left to try, and how all the rest ended.
 
         Args:
-            node: The node.
-            problem: What is to be pushed there.
+            node: Where it got farthest.
+            limit: What ended the search before everything was tried; empty: nothing did.
         """
+        self.tree.close_others(node, "leads to no grasp")
+        if why := self.tree[ROOT].closed:
+            return self.fail(node, why)
+        listed = ", ".join(f"{why} ({number})" for why, number in self._ends.most_common(3) if why)
+        ended = f"; the search was ended by {limit}" if limit else ""
+        return self.fail(node, f"none of {len(self.tree) - 1} pushes leads to a grasp: {listed}{ended}")
+
+    def hopeless(self, node: int, problem: PushProblem) -> str:
+        """Why nothing more is to be pushed at a node, by the options ``max_actions`` and ``patience``; empty: go on."""
+        options = self.pushing.options
+        if (actions := self.tree.depth(node)) >= options.max_actions:
+            return f"the corridor is not empty after {actions} actions"
+        if (idle := self._idle_pushes(node, problem)) >= options.patience:
+            return f"the last {idle} pushes took nothing out of the corridor"
+        return ""
+
+    def _idle_pushes(self, node: int, problem: PushProblem) -> int:
+        """How many pushes ago, on the path to a node, the obstacles in the way were first as few as they ever were."""
         members = [len(PushDecision.of(each.decision).members) for each in self.tree.path(node)]
         left = [*members, len(problem.members)]
         return len(members) - left.index(min(left))
+
+    @property
+    def _ends(self) -> Counter[str]:
+        """How often each reason closed a node that nothing follows."""
+        nodes = [self.tree[row] for row in range(len(self.tree))]
+        followed = {node.parent for node in nodes}
+        return Counter(node.closed for row, node in enumerate(nodes) if row not in followed)
 
     def _rounds(self, node: int) -> int:
         """How often blockers of the grasp were pushed on the path to a node."""

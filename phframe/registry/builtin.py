@@ -26,6 +26,18 @@ EXTENSIONS = [
         "Searches the pushes of the closest group at every persistent radius for the least total pushing time",
     ),
     _own(
+        Kind.PLANNER,
+        "phim",
+        "phframe.planners.phim:PHIM",
+        "Monte-Carlo tree search over the pushes of the closest group at every persistent radius, in both directions",
+    ),
+    _own(
+        Kind.PLANNER,
+        "random-push",
+        "phframe.planners.random_push:RandomPush",
+        "Pushes a random obstacle in a random direction: the floor that every other planner must beat",
+    ),
+    _own(
         Kind.BACKEND,
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
