@@ -139,9 +139,9 @@ def test_a_listed_plugin_that_is_not_installed_is_reported(install: Install, fou
 def test_a_name_nearly_right_is_answered_with_the_right_one() -> None:
     there_is = ", ".join(sorted(BUILT_IN))
     with pytest.raises(
-        UnknownNameError, match=rf"no planner named 'phai'\. Did you mean 'phia'\? There is: {there_is}"
+        UnknownNameError, match=rf"no planner named 'phya'\. Did you mean 'phia'\? There is: {there_is}"
     ):
-        discover([]).find(Kind.PLANNER, "phai")
+        discover([]).find(Kind.PLANNER, "phya")
     with pytest.raises(UnknownNameError, match="There is no command at all"):
         discover([]).find(Kind.COMMAND, "tidy")
 
