@@ -25,6 +25,11 @@ def scenes(incomplete: str) -> Offer:
     return _quietly(_scene_names, incomplete)
 
 
+def suites_and_scenes(incomplete: str) -> Offer:
+    """The suites of scenes, their scenes, and scene files."""
+    return [*names("scenes")(incomplete), *scenes(incomplete)]
+
+
 def scenes_and_runs(incomplete: str) -> Offer:
     """Scenes, and the directories of runs."""
     return [*_quietly(_runs, incomplete), *scenes(incomplete)]
@@ -55,7 +60,14 @@ def _quietly(offer: Callable[[], Iterable[tuple[str, str]]], incomplete: str) ->
 def _registered(kind: str) -> Offer:
     from phframe.registry import Kind, catalogue
 
-    return [(entry.name, entry.extension.summary) for entry in catalogue().extensions(Kind(kind))]
+    return [
+        offer
+        for entry in catalogue().extensions(Kind(kind))
+        for offer in [
+            (entry.name, entry.extension.summary),
+            *((f"{entry.name}[{options}]", summary) for options, summary in entry.extension.variants),
+        ]
+    ]
 
 
 def _scene_names() -> Offer:

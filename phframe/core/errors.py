@@ -43,6 +43,11 @@ class ArmError(InputError):
     """Joint values, a pose or an opening that the arm cannot have."""
 
 
+_MOST_NAMES = 40
+"""Shown in one message; of more the first few are, and the rest are counted."""
+_FEW_NAMES = 10
+
+
 class UnknownNameError(InputError):
     """A name for which nothing is registered.
 
@@ -62,8 +67,13 @@ class UnknownNameError(InputError):
         parts = [f"no {self.kind} named {self.name!r}."]
         if close:
             parts.append(f"Did you mean {close[0]!r}?")
-        parts.append(f"There is: {', '.join(self.known)}." if self.known else f"There is no {self.kind} at all.")
+        parts.append(f"There is: {self._known()}." if self.known else f"There is no {self.kind} at all.")
         return " ".join([*parts, self.hint]).strip()
+
+    def _known(self) -> str:
+        if len(self.known) <= _MOST_NAMES:
+            return ", ".join(self.known)
+        return f"{', '.join(self.known[:_FEW_NAMES])} and {len(self.known) - _FEW_NAMES} more"
 
     def __reduce__(self) -> tuple[type[UnknownNameError], tuple[str, str, tuple[str, ...], str]]:
         return type(self), (self.kind, self.name, self.known, self.hint)

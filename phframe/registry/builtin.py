@@ -101,6 +101,24 @@ EXTENSIONS = [
         "Scenes made from a seed: obstacles in front of a target deep in the shelf",
     ),
     _own(
+        Kind.SCENES,
+        "dense",
+        "phframe.scenes.dense:DenseScenes",
+        "Crowded scenes made from a seed: 20 to 40 objects all around a target deep in the shelf",
+    ),
+    _own(
+        Kind.SCENES,
+        "near",
+        "phframe.scenes.near:NearScenes",
+        "Scenes made from a seed: a target near a side wall, obstacles in front of it",
+    ),
+    _own(
+        Kind.SCENES,
+        "paper",
+        "phframe.scenes.paper:Paper",
+        "121 problems like those of the paper's experiment: basic, ten simple, ten of Papallas, 100 random",
+    ),
+    _own(
         Kind.RECORDER,
         "rerun",
         "phframe.recorders.rerun_:RerunRecorder",
