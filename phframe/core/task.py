@@ -201,12 +201,18 @@ class Task:
         """What has been spent so far."""
         return replace(self._cost, total=self.elapsed)
 
+    @property
+    def simulations_left(self) -> int | None:
+        """How many actions may still be simulated; None: any number."""
+        limit = self.budget.simulations
+        return None if limit is None else limit - self._cost.simulated_actions
+
     def _spend(self, simulations: int) -> None:
-        limit, budget = self.budget.simulations, self.budget
+        budget, left = self.budget, self.simulations_left
         if self.elapsed > budget.seconds:
             raise BudgetExceededError(f"the time limit of {budget.seconds:g} s is used up")
-        if limit is not None and self._cost.simulated_actions + simulations > limit:
-            raise BudgetExceededError(f"the budget of {limit} simulated actions is used up")
+        if left is not None and simulations > left:
+            raise BudgetExceededError(f"the budget of {budget.simulations} simulated actions is used up")
 
     def _simulated(self, simulate: Callable[[], ResultT], simulations: int = 1) -> ResultT:
         """Simulate within the budget, and count it."""

@@ -13,7 +13,7 @@ from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
 from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_problem import PushProblem
-from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, is_unchanged
+from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, by_direction, is_unchanged
 from phframe.pushing.pushing import Pushing
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
 from phframe.pushing.straight_drive import StraightDrive, first_blocker, straight_drive
@@ -47,6 +47,7 @@ __all__ = [
     "Sweep",
     "SweepGenerator",
     "bounding_rectangle",
+    "by_direction",
     "closest_component",
     "corridor_half_width",
     "find_corridor",

@@ -45,6 +45,24 @@ EXTENSIONS = [
         "Asks a person, or a file of hints, which object to push where, and pushes it there",
     ),
     _own(
+        Kind.PLANNER,
+        "phis",
+        "phframe.planners.phis:PHIS",
+        "Searches the pushes of the closest group at every persistent radius for the least total pushing time",
+    ),
+    _own(
+        Kind.PLANNER,
+        "phim",
+        "phframe.planners.phim:PHIM",
+        "Monte-Carlo tree search over the pushes of the closest group at every persistent radius, in both directions",
+    ),
+    _own(
+        Kind.PLANNER,
+        "random-push",
+        "phframe.planners.random_push:RandomPush",
+        "Pushes a random obstacle in a random direction: the floor that every other planner must beat",
+    ),
+    _own(
         Kind.BACKEND,
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
