@@ -9,7 +9,7 @@ from phframe.pushing.deviation import Deviation
 from phframe.pushing.grasp import Grasp, grasp_action
 from phframe.pushing.grouping import Rectangle, bounding_rectangle, closest_component
 from phframe.pushing.grtc import GrtcDeviation, GrtcSearch, Obstruction, StraightPushDecision
-from phframe.pushing.options import PushingOptions
+from phframe.pushing.options import ClearingOptions, PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
 from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_problem import PushProblem
@@ -25,6 +25,7 @@ __all__ = [
     "UNCHANGED",
     "ChooseRadius",
     "Clearing",
+    "ClearingOptions",
     "Corridor",
     "Deviation",
     "Grasp",

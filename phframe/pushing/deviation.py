@@ -30,5 +30,7 @@ class Deviation(StrEnum):
     """The gripper deviates from the corridor's axis, past neighbours or a wall."""
     GRASP_TIGHT = "grasp with little room"
     """The fingers open less wide, or go less far past the target, than they would with more room."""
+    GRASP_EARLY = "grasp before the corridor is empty"
+    """Obstacles are still in the corridor, but none blocks the grasp; only with ``grasp_first``."""
     GRASP_BLOCKED = "grasp blocked"
     """The corridor is empty, but what stands beside the target keeps the fingers out; it joined the members."""

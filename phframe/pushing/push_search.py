@@ -110,6 +110,21 @@ class PushSearch:
         end, outcome = self.try_grasp(node, grasp)
         return self.tree.plan(end, outcome.status, outcome.reason)
 
+    def grasp_early(self, node: int, problem: PushProblem) -> Plan | None:
+        """The plan that ends with a grasp past the obstacles that are still in the corridor; None where that fails.
+
+        It is simulated only where nothing blocks it; an attempt that fails stays in the tree, closed.
+        """
+        grasp = self.pushing.grasp(problem)
+        if isinstance(grasp, Infeasible):
+            return None
+        early = replace(grasp, deviations=(*grasp.deviations, Deviation.GRASP_EARLY))
+        end, outcome = self.try_grasp(node, early)
+        if outcome.status is Status.RETRIEVED:
+            return self.tree.plan(end, outcome.status, outcome.reason)
+        self.tree.close(end, outcome.reason)
+        return None
+
     def try_grasp(self, node: int, grasp: Grasp) -> tuple[int, Assessment]:
         """Simulate a grasp from a node: the index of the new one, and what the task's goal makes of it."""
         made = self.task.apply(self.state(node), grasp.action)
