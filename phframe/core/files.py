@@ -12,7 +12,7 @@ import secrets
 import shutil
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
@@ -114,9 +114,24 @@ def write_file(path: Path, content: str | bytes, *, overwrite: bool = True) -> P
     Raises:
         InputError: If it cannot be written, or is there and may not be replaced.
     """
+    data = content.encode() if isinstance(content, str) else content
+    return write_file_by(path, lambda part: part.write_bytes(data), overwrite=overwrite)
+
+
+def write_file_by(path: Path, write: Callable[[Path], object], *, overwrite: bool = True) -> Path:
+    """Write a file, whole or not at all, by what fills an empty one bit by bit. As ``NewFile``.
+
+    Args:
+        path: Where it is to be.
+        write: Fills the temporary file whose path it is given.
+        overwrite: Whether a regular file that is there may be replaced.
+
+    Raises:
+        InputError: If it cannot be written, or is there and may not be replaced.
+    """
     with NewFile(path, overwrite=overwrite) as file:
         with _told(path):
-            file.part.write_bytes(content.encode() if isinstance(content, str) else content)
+            write(file.part)
         file.put()
     return path
 
