@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Collection, Iterator, Mapping
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -90,7 +90,10 @@ class ResultStore:
         return store
 
     def close(self) -> None:
-        """Close the file. May be called twice."""
+        """Close the file, which is then the only one of the store, unless somebody else has it open. May be called twice."""
+        with suppress(sqlite3.Error):  # closed already, or in use elsewhere, or nothing that is written
+            self._connection.execute("PRAGMA busy_timeout = 0")
+            self._connection.execute("PRAGMA journal_mode = DELETE")
         self._connection.close()
 
     def __enter__(self) -> Self:

@@ -162,24 +162,35 @@ def write_folder(path: Path, files: Mapping[str, str], *, overwrite: bool = Fals
         InputError: If it cannot be written, or holds something and may not.
     """
     check_folder_writable(path, overwrite=overwrite)
-    with _told(path):
-        place = path.resolve()
-        if place.exists():
-            _refill(place, files, overwrite)
-        else:
-            _make(place, files)
+    if path.exists():
+        with _told(path):
+            _refill(path.resolve(), files, overwrite)
+    else:
+        with new_folder(path) as made:
+            for name, text in files.items():
+                write_file(made / name, text)
     return path
 
 
-def _make(place: Path, files: Mapping[str, str]) -> None:
-    """Make the folder under another name, and rename it; never onto one in use."""
-    place.parent.mkdir(parents=True, exist_ok=True)
-    made = place.parent / f".{place.name[:_SHOWN]}.{secrets.token_hex(6)}.part"
-    made.mkdir()
+@contextmanager
+def new_folder(path: Path) -> Iterator[Path]:
+    """A folder that is filled under another name, which this gives, and put in place at the end; after an error it is gone.
+
+    Raises:
+        InputError: If it cannot be written, or there is one that is not empty.
+    """
+    check_folder_writable(path)
+    with _told(path):
+        place = path.resolve()
+        place.parent.mkdir(parents=True, exist_ok=True)
+        made = place.parent / f".{place.name[:_SHOWN]}.{secrets.token_hex(6)}.part"
+        made.mkdir()
     try:
-        for name, text in files.items():
-            write_file(made / name, text)
-        made.rename(place)
+        yield made
+        with _told(path):
+            if place.exists():
+                place.rmdir()
+            made.rename(place)
     finally:
         shutil.rmtree(made, ignore_errors=True)
 

@@ -93,9 +93,16 @@ _COUNTS = st.integers(0, 2**62)
 @st.composite
 def any_result(draw: st.DrawFn) -> TrialResult:
     """A result with any texts and numbers."""
-    result = synthetic_result(draw(st.integers(0, 99)))
-    drawn = {name: draw(_TEXTS) for name in ("key", "problem", "planner", "reason", "claimed", "started")}
-    numbers = {name: draw(_FLOATS) for name in ("planning_time", "largest_force", "displacement")}
-    some = {"first_solution_time": draw(st.none() | _FLOATS), "peak_memory": draw(_COUNTS), "spec": json.dumps(drawn)}
-    deviations = draw(st.dictionaries(_TEXTS, _COUNTS, max_size=3))
-    return replace(result, **drawn, **numbers, **some, deviations=deviations)
+    return replace(
+        synthetic_result(draw(st.integers(0, 99))),
+        key=draw(_TEXTS),
+        problem=draw(_TEXTS),
+        planner=draw(_TEXTS),
+        reason=draw(_TEXTS),
+        started=draw(_TEXTS),
+        planning_time=draw(_FLOATS),
+        largest_force=draw(_FLOATS),
+        first_solution_time=draw(st.none() | _FLOATS),
+        peak_memory=draw(_COUNTS),
+        deviations=draw(st.dictionaries(_TEXTS, _COUNTS, max_size=3)),
+    )

@@ -15,6 +15,7 @@ from phframe.bench.environment import Environment
 from phframe.bench.export.content import ExportContent
 from phframe.bench.export.plannerarena import OmplStatus, ompl_status, write_plannerarena
 from phframe.bench.trial_result import TrialEnd, TrialResult
+from phframe.core import InputError
 from tests.bench.synthetic import ENVIRONMENT, SETTINGS, hostile_result, synthetic_result, synthetic_results
 
 FIXED = [
@@ -47,7 +48,7 @@ def rows(database: sqlite3.Connection, query: str) -> list[tuple[Any, ...]]:
     return database.execute(query).fetchall()
 
 
-@pytest.mark.parametrize("count", [0, 1, 900])
+@pytest.mark.parametrize("count", [1, 900])
 def test_the_tables_are_planner_arenas(tmp_path: Path, count: int) -> None:
     with closing(exported(tmp_path / "a.db", synthetic_results(count))) as database:
         assert [name for name, _ in columns(database, "experiments")[:12]] == FIXED
@@ -69,7 +70,7 @@ def test_the_tables_are_planner_arenas(tmp_path: Path, count: int) -> None:
 
 
 def test_the_one_enum_is_ompls_status(tmp_path: Path) -> None:
-    with closing(exported(tmp_path / "a.db", [])) as database:
+    with closing(exported(tmp_path / "a.db", synthetic_results(1))) as database:
         assert rows(database, "SELECT * FROM enums ORDER BY value") == [
             ("status", value, name)
             for value, name in enumerate(
@@ -113,6 +114,11 @@ def test_a_hostile_text_and_an_unknown_environment_are_no_obstacle(tmp_path: Pat
         assert rows(database, "SELECT name FROM plannerConfigs") == [(result.planner,)]
         assert rows(database, "SELECT version FROM experiments") == [("phframe unknown",)]
         assert rows(database, "SELECT memory, largest_force FROM runs") == [(None, float("inf"))]
+
+
+def test_no_results_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no results yet"):
+        exported(tmp_path / "a.db", [])
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ from phframe.bench.environment import Environment
 from phframe.bench.export.columns import COLUMNS, ColumnKind, plain_value
 from phframe.bench.export.content import ExportContent
 from phframe.bench.trial_result import TrialEnd, TrialResult
-from phframe.core import Status
+from phframe.core import InputError, Status
 
 
 class OmplStatus(IntEnum):
@@ -81,6 +81,7 @@ def write_plannerarena(content: ExportContent, path: Path) -> None:
     """Write the database into an empty file; memory grows with problems and planners, not with trials.
 
     Raises:
+        InputError: If there are no results: Planner Arena opens no database without any.
         OSError: If it cannot be written.
     """
     try:
@@ -117,6 +118,10 @@ def _fill(database: sqlite3.Connection, content: ExportContent) -> None:
         experiment.total_time += result.wall_time
         experiment.runs[planner] += 1
         database.execute(f"INSERT INTO runs VALUES ({marks})", _run(result, experiment.number, planner))
+    if not experiments:
+        raise InputError(
+            "there are no results yet, and Planner Arena opens no database without any: run the bench first"
+        )
     for experiment in experiments.values():
         row = _experiment_row(experiment, content)
         database.execute(f"INSERT INTO experiments VALUES ({', '.join('?' * len(row))})", row)
