@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations
 from pathlib import Path
 
-from phframe.bench.merge_differences import (
+from phframe.bench.conflicts import Accept, refused
+from phframe.bench.merge_conflicts import (
     SHOWN,
-    MergeDifference,
-    MergeKind,
-    MergeRefusedError,
-    environment_differences,
-    problem_differences,
+    MergeConflictError,
+    ResultConflictError,
+    ResultDifference,
+    bench_differences,
     result_differences,
-    setting_differences,
 )
 from phframe.bench.settings import BenchSettings
 from phframe.bench.store import ResultStore
@@ -46,7 +45,7 @@ class MergeSummary:
 
 
 def merge_benches(
-    directories: Sequence[Path], out: Path, *, accept: Collection[MergeKind] = (), prefer: Preference | None = None
+    directories: Sequence[Path], out: Path, *, accept: Collection[Accept] = (), prefer: Preference | None = None
 ) -> MergeSummary:
     """Write a new bench that holds the results of several, which stay as they are.
 
@@ -61,19 +60,18 @@ def merge_benches(
         prefer: Whose result is taken where a trial came out differently; None: that is refused.
 
     Raises:
-        MergeRefusedError: If they differ in anything else.
+        MergeConflictError: If they differ in anything else.
+        ResultConflictError: If a trial came out differently, and no result is preferred.
         InputError: If one holds no bench, or the new one cannot be written.
     """
     with ExitStack() as opened, new_folder(out) as made:
         stores = [opened.enter_context(ResultStore.open(directory)) for directory in directories]
-        refused = [each for each in _differences(stores) if each.kind not in accept]
-        if refused:
-            raise MergeRefusedError(refused, len(refused))
-        with ResultStore.create(made, _together([store.settings for store in stores])) as merged:
-            summary = _Merging(merged, prefer).all_of(stores)
-            problems = {name: digest for store in reversed(stores) for name, digest in store.problems().items()}
-            merged.set_plan(merged.settings, merged.done(), problems)
-    return summary
+        differences = [each for pair in combinations(stores, 2) for each in bench_differences(*pair)]
+        if wrong := refused(differences, accept):
+            raise MergeConflictError(list(dict.fromkeys(wrong)))
+        problems = {name: digest for store in reversed(stores) for name, digest in store.problems().items()}
+        with ResultStore.create(made, _together([store.settings for store in stores]), problems) as merged:
+            return _Merging(merged, prefer).all_of(stores)
 
 
 class _Merging:
@@ -81,7 +79,7 @@ class _Merging:
 
     def __init__(self, merged: ResultStore, prefer: Preference | None) -> None:
         self._merged, self._prefer = merged, prefer
-        self._refused: list[MergeDifference] = []
+        self._refused: list[ResultDifference] = []
         self._count = self._stored = self._shared = 0
 
     def all_of(self, stores: Sequence[ResultStore]) -> MergeSummary:
@@ -92,7 +90,7 @@ class _Merging:
             for result in store.results():
                 self._take(result, store)
         if self._count:
-            raise MergeRefusedError(self._refused, self._count)
+            raise ResultConflictError(self._refused, self._count)
         return MergeSummary(self._stored, self._shared)
 
     def _take(self, result: TrialResult, store: ResultStore) -> None:
@@ -108,14 +106,6 @@ class _Merging:
         if found and self._prefer is None:
             self._count += len(found)
             self._refused += found[: SHOWN - len(self._refused)]
-
-
-def _differences(stores: Sequence[ResultStore]) -> Iterator[MergeDifference]:
-    """In what any two benches differ, their results aside."""
-    for one, other in combinations(stores, 2):
-        yield from setting_differences(one.settings, other.settings)
-        yield from environment_differences(one.environments().values(), other.environments().values())
-        yield from problem_differences(one.problems(), other.problems())
 
 
 def _together(settings: Sequence[BenchSettings]) -> BenchSettings:

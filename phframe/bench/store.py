@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Generator, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from types import MappingProxyType, TracebackType
@@ -130,8 +130,11 @@ class ResultStore:
         """What the bench runs."""
         return BenchSettings.from_json(str(self._one("SELECT settings FROM bench")))
 
-    def results(self) -> Iterator[TrialResult]:
-        """All results, one by one, ordered by suite, problem, planner and seed. Retired ones are left out."""
+    def results(self) -> Generator[TrialResult, None, None]:
+        """All results, one by one, ordered by suite, problem, planner and seed. Retired ones are left out.
+
+        Close the iterator before the store, unless it has come to its end.
+        """
         with _told(self.path), closing(self._connection.cursor()) as cursor:
             for row in cursor.execute(f"SELECT {_ALL} FROM results WHERE NOT retired ORDER BY {_ORDER}"):
                 yield from_row(row)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -40,8 +41,8 @@ def export_results(directory: Directory, format_name: Format = None, out: Out = 
     from phframe.core.paths import user_path
 
     form = _chosen(format_name, out)
-    with ResultStore.open(user_path(directory)) as store:
-        output, content = Output(out, force=force), ExportContent.of(store)
+    with ResultStore.open(user_path(directory)) as store, closing(store.results()) as results:
+        output, content = Output(out, force=force), ExportContent(results, store.settings, store.environments())
         if form.lines is not None:
             output.write_lines(form.lines(content))
         elif form.write is not None:

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from phframe.cli import completion
 from phframe.cli.flags import flag
 
 Directories = Annotated[
@@ -14,7 +15,12 @@ Directories = Annotated[
 Out = Annotated[str, flag("DIR", "The new directory to write.", "")]
 Accept = Annotated[
     list[str] | None,
-    flag("KIND", "In what they may differ: settings, versions, code or problems. The first one's count. Repeatable."),
+    flag(
+        "WHAT",
+        "In what they may differ: suites, options, versions, code, machine. Of the settings the first one's count. Repeatable.",
+        "nothing",
+        autocompletion=completion.differences,
+    ),
 ]
 Prefer = Annotated[
     str | None,
@@ -27,24 +33,24 @@ def merge(directories: Directories, out: Out, accept: Accept = None, prefer: Pre
 
     A trial that several have is kept once. Suites and planners are those of all benches, seeds the most that one has.
     """
+    from phframe.bench.conflicts import Accept as Accepted
     from phframe.bench.merge import Preference, merge_benches
-    from phframe.bench.merge_differences import MergeKind
     from phframe.cli.console import note
     from phframe.core import InputError, UnknownNameError
     from phframe.core.paths import path_shown, user_path
 
-    kinds = [str(kind) for kind in MergeKind if kind is not MergeKind.RESULTS]
-    for kind, given, known in (("kind of difference", accept or (), kinds), ("preference", [prefer], list(Preference))):
-        for name in given:
-            if name is not None and name not in known:
-                raise UnknownNameError(kind, name, map(str, known))
+    for name in accept or ():
+        if name not in list(Accepted):
+            raise UnknownNameError("difference", name, list(Accepted), "That is what --accept takes.")
+    if prefer is not None and prefer not in list(Preference):
+        raise UnknownNameError("preference", prefer, list(Preference))
     if len(directories) < 2:
         raise InputError("one bench is merged already: name two or more directories")
     place = user_path(out)
     summary = merge_benches(
         [user_path(each) for each in directories],
         place,
-        accept=[MergeKind(name) for name in accept or ()],
+        accept=[Accepted(name) for name in accept or ()],
         prefer=None if prefer is None else Preference(prefer),
     )
     note(

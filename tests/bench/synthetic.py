@@ -17,7 +17,9 @@ from phframe.bench.trial_result import TrialEnd, TrialResult
 from phframe.core import Loop, RunSpec
 
 SETTINGS = BenchSettings(("vieira",), ("phia", "ooa"), seeds=3, loop=Loop(time_limit=30.0))
-ENVIRONMENT = Environment({"phframe": "0.1.0", "python": "3.11"}, "0123abc", cpu="A processor", cores=2, memory=8000)
+ENVIRONMENT = Environment(
+    {"phframe": "0.1.0", "python": "3.11"}, "0123abc", {"phframe": "same"}, cpu="A processor", cores=2, memory=8000
+)
 HOSTILE = (
     "two\nlines\r, a \"quote\", 'another', a comma, \ttabs\\n, ünï¢ödé, NUL \0, half a surrogate \udc80 \u2028 <b>"
 )
@@ -78,7 +80,7 @@ def hostile_result() -> TrialResult:
 
 def written_store(folder: Path, results: list[TrialResult], settings: BenchSettings = SETTINGS) -> Path:
     """The directory of a bench that holds these results."""
-    with ResultStore.create(folder, settings) as store:
+    with ResultStore.create(folder, settings, {}) as store:
         store.add_environment(ENVIRONMENT)
         for result in results:
             store.add(result)

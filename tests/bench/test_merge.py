@@ -12,9 +12,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from phframe.bench.environment import Environment
+from phframe.bench.conflicts import Accept
 from phframe.bench.merge import MergeSummary, Preference, merge_benches
-from phframe.bench.merge_differences import TIMED, MergeKind, MergeRefusedError
+from phframe.bench.merge_conflicts import TIMED, MergeConflictError, ResultConflictError
 from phframe.bench.store import FILE, ResultStore, StoreError
 from phframe.bench.trial_result import TrialResult
 from phframe.core import InputError, Loop
@@ -116,12 +116,12 @@ def contradicting(folder: Path) -> tuple[list[Path], TrialResult, TrialResult]:
 
 def test_a_trial_that_came_out_differently_is_refused_and_nothing_written(folder: Path) -> None:
     benches, here, _ = contradicting(folder)
-    with pytest.raises(MergeRefusedError) as refused:
+    with pytest.raises(ResultConflictError) as refused:
         merge_benches(benches, folder / "ab")
     (difference,) = refused.value.differences
-    assert (difference.kind, difference.first, difference.second) == (MergeKind.RESULTS, "2", "5")
-    assert f"pushes of trial {here.key}" in str(refused.value)
-    assert "--prefer first or last" in str(refused.value)
+    assert (difference.key, difference.first, difference.second) == (here.key, "2", "5")
+    assert f"pushes of {here.planner} on {here.problem} with seed 0 is 2 and 5" in str(refused.value)
+    assert "--prefer first or --prefer last" in str(refused.value)
     assert sorted(path.name for path in folder.iterdir()) == ["a", "b"]
     assert pickle.loads(pickle.dumps(refused.value)).differences == refused.value.differences
 
@@ -136,7 +136,7 @@ def test_the_preferred_result_is_taken(folder: Path, prefer: Preference, taken: 
 def test_of_many_differences_a_few_are_told_and_all_counted(folder: Path) -> None:
     a = written_store(folder / "a", of(set(range(9))))
     b = written_store(folder / "b", [replace(each, pushes=99, replans=99) for each in of(set(range(9)))])
-    with pytest.raises(MergeRefusedError, match="and 14 more") as refused:
+    with pytest.raises(ResultConflictError, match="and 14 more") as refused:
         merge_benches([a, b], folder / "ab")
     assert (len(refused.value.differences), refused.value.count) == (4, 18)
 
@@ -151,11 +151,11 @@ def with_settings(folder: Path, **changed: Any) -> list[Path]:
 )
 def test_other_settings_are_refused_and_where_accepted_the_first_ones_count(folder: Path, changed: Any) -> None:
     benches = with_settings(folder, **changed)
-    with pytest.raises(MergeRefusedError, match=rf"{next(iter(changed))} is .* \[--accept settings\]"):
+    with pytest.raises(MergeConflictError, match=r"differ \(options: .* was .*, is .*--accept options"):
         merge_benches(benches, folder / "ab")
-    with pytest.raises(MergeRefusedError):
-        merge_benches(benches, folder / "ab", accept=[MergeKind.VERSIONS])
-    merge_benches(benches, folder / "ab", accept=[MergeKind.SETTINGS])
+    with pytest.raises(MergeConflictError):
+        merge_benches(benches, folder / "ab", accept=[Accept.VERSIONS])
+    merge_benches(benches, folder / "ab", accept=[Accept.OPTIONS])
     with ResultStore.open(folder / "ab") as store:
         assert store.settings == SETTINGS
 
@@ -171,27 +171,25 @@ def test_suites_planners_and_seeds_of_all_count(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("kind", "changed", "told"),
     [
-        (MergeKind.VERSIONS, {"versions": {"phframe": "0.2.0", "only-there": "1"}}, "phframe is 0.1.0 and 0.2.0"),
-        (MergeKind.CODE, {"code": {"phframe": "other"}}, "phframe is same and other"),
+        (Accept.VERSIONS, {"versions": {"phframe": "0.2.0", "only-there": "1"}}, "phframe was 0.1.0, is 0.2.0"),
+        (Accept.CODE, {"code": {"phframe": "other", "only-there": "1"}}, "the source of phframe is another one"),
+        (Accept.MACHINE, {"cpu": "Another"}, "cpu was A processor, is Another"),
     ],
 )
-def test_other_versions_and_code_are_told_and_may_be_accepted(
-    folder: Path, kind: MergeKind, changed: Any, told: str
-) -> None:
+def test_other_surroundings_are_told_and_may_be_accepted(folder: Path, kind: Accept, changed: Any, told: str) -> None:
     a, b = written_store(folder / "a", of({1})), written_store(folder / "b", of({2}))
-    for directory, environment in ((a, {"code": {"phframe": "same"}}), (b, changed)):
-        with ResultStore.open(directory, read_only=False) as store:
-            store.add_environment(replace(ENVIRONMENT, cpu="Another", **environment))
-    with ResultStore.open(a, read_only=False) as store:
-        store.add_environment(Environment())
-    with pytest.raises(MergeRefusedError) as refused:
+    other = replace(ENVIRONMENT, **changed)
+    with ResultStore.open(b, read_only=False) as store:
+        store.add_environment(other)
+    with pytest.raises(MergeConflictError) as refused:
         merge_benches([a, b], folder / "ab")
-    assert {each.kind for each in refused.value.differences} == {kind}
-    assert f"--accept {kind}" in str(refused.value)
+    assert [(each.kind, each.what) for each in refused.value.differences] == [(kind, told)]
+    assert f"--accept {kind};" in str(refused.value)
+    assert pickle.loads(pickle.dumps(refused.value)).differences == refused.value.differences
     merge_benches([a, b], folder / "ab", accept=[kind])
     with ResultStore.open(folder / "ab") as store:
-        assert len(store.environments()) == 4
-    assert told.split(maxsplit=1)[0] in str(refused.value)
+        assert store.environments() == {ENVIRONMENT.id: ENVIRONMENT, other.id: other}
+    merge_benches([folder / "ab", b, a], folder / "again")
 
 
 def test_other_scenes_of_one_name_are_refused(folder: Path) -> None:
@@ -199,9 +197,9 @@ def test_other_scenes_of_one_name_are_refused(folder: Path) -> None:
     for directory, digest in ((a, "aa"), (b, "bb")):
         with ResultStore.open(directory, read_only=False) as store:
             store.set_plan(store.settings, store.done(), {"vieira/basic": digest, directory.name: digest})
-    with pytest.raises(MergeRefusedError, match=r"the scene vieira/basic is aa and bb \[--accept problems\]"):
+    with pytest.raises(MergeConflictError, match=r"suites: changed: vieira/basic\).*--accept suites"):
         merge_benches([a, b], folder / "ab")
-    merge_benches([a, b], folder / "ab", accept=[MergeKind.PROBLEMS])
+    merge_benches([a, b], folder / "ab", accept=[Accept.SUITES])
     with ResultStore.open(folder / "ab") as store:
         assert store.problems() == {"vieira/basic": "aa", "a": "aa", "b": "bb"}
 

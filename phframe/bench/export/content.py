@@ -9,7 +9,6 @@ from typing import Any
 
 from phframe.bench.environment import Environment
 from phframe.bench.settings import BenchSettings
-from phframe.bench.store import ResultStore
 from phframe.bench.trial_result import TrialResult
 
 FORMAT = 1
@@ -29,11 +28,6 @@ class ExportContent:
     results: Iterable[TrialResult]
     settings: BenchSettings
     environments: Mapping[str, Environment]
-
-    @staticmethod
-    def of(store: ResultStore) -> ExportContent:
-        """All that a store holds. The results are read as they are asked for."""
-        return ExportContent(store.results(), store.settings, store.environments())
 
     def header(self) -> dict[str, Any]:
         """All but the results, as JSON has it."""

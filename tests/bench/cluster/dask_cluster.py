@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -97,14 +96,3 @@ def dask_cluster(folder: Path, workers: int) -> Iterator[DaskCluster]:
         yield cluster
     finally:
         cluster.close()
-
-
-def children_of(pid: int) -> set[int]:
-    """The processes that descend from one."""
-    import psutil
-
-    try:
-        found: list[Any] = psutil.Process(pid).children(recursive=True)
-    except psutil.NoSuchProcess:
-        return set()
-    return {each.pid for each in found}

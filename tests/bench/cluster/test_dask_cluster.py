@@ -3,31 +3,32 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from phframe.bench.dask_ import ATTEMPTS, ClusterError, run_on_cluster
-from phframe.bench.environment import Environment
+from phframe.bench.bench_plan import BenchPlan
 from phframe.bench.limits import TrialLimits
-from phframe.bench.merge_differences import result_differences
-from phframe.bench.on_worker import WorkerSpec
+from phframe.bench.merge_conflicts import result_differences
 from phframe.bench.outcome import result_of
-from phframe.bench.pool import run_trials
+from phframe.bench.schedulers.dask_ import ATTEMPTS, ClusterError, cluster_scheduler, run_on_cluster
+from phframe.bench.schedulers.on_worker import UnfitWorkerError, WorkerSpec
+from phframe.bench.session import BenchSession
+from phframe.bench.settings import BenchSettings
+from phframe.bench.store import ResultStore
 from phframe.bench.trial import Trial
 from phframe.bench.trial_result import TrialEnd, TrialResult
-from phframe.core import RunSpec
+from phframe.core import InputError, RunSpec
 from phframe.runtime.run import prepare
-from tests.bench.cluster.dask_cluster import DaskCluster, dask_cluster, look
+from tests.bench.cluster.dask_cluster import VERSION, DaskCluster, dask_cluster, look
 
 pytestmark = [pytest.mark.needs_cluster, pytest.mark.slow]
 pytest.importorskip("distributed")
 
 LIMITS = TrialLimits(60.0, 4096)
-
-
 PLANNERS = """
 import multiprocessing, os, signal
 from phframe.core import Options, Planner
@@ -60,39 +61,47 @@ def trials(count: int, planner: str = "phia") -> list[Trial]:
     return [Trial("vieira", replace(spec, seed=seed)) for seed in range(count)]
 
 
-def results_on(cluster: DaskCluster, wanted: Sequence[Trial]) -> Iterator[tuple[TrialResult, Environment]]:
-    """What comes of trials, and where each ran."""
-    for trial, ending, environment in run_on_cluster(cluster.address, wanted, WorkerSpec.of(look, LIMITS)):
-        yield result_of(trial, ending, LIMITS)[0], environment
+def results_on(cluster: DaskCluster, wanted: Sequence[Trial]) -> Generator[TrialResult, None, None]:
+    with closing(run_on_cluster(cluster.address, wanted, WorkerSpec.of(look, LIMITS))) as endings:
+        for trial, ending in endings:
+            yield result_of(trial, ending, LIMITS)[0]
 
 
-def test_a_killed_worker_costs_no_trial_and_none_is_told_twice(tmp_path: Path) -> None:
-    wanted, ran = trials(8), []
-    with dask_cluster(tmp_path, 2) as own:
-        for result, environment in results_on(own, wanted):
-            ran.append((result, environment.cpu))
-            if len(ran) == 2:
+def stored(directory: Path) -> list[TrialResult]:
+    with ResultStore.open(directory) as store:
+        return list(store.results())
+
+
+def test_a_bench_whose_worker_is_killed_ends_like_one_that_was_not_disturbed(tmp_path: Path) -> None:
+    plan = BenchPlan.of(BenchSettings(("vieira/simple-0*",), ("phia", "ooa")))
+    numbers = range(6)
+    told: list[str] = []
+    with dask_cluster(tmp_path, 2) as own, BenchSession(tmp_path / "cluster", plan) as session:
+        for result in session.run(numbers, cluster_scheduler(own.address, plan)):
+            told.append(result.key)
+            if len(told) == 2:
                 own.workers[0].send_signal(signal.SIGKILL)
-    assert sorted(result.key for result, _ in ran) == sorted(trial.key for trial in wanted)
-    assert {worker for _, worker in ran[4:]} == {str(own.workers[1].pid)}
-    local = {trial.key: result_of(trial, ending, LIMITS)[0] for trial, ending in run_trials(wanted, LIMITS, 2)}
-    assert [list(result_differences(local[result.key], result)) for result, _ in ran] == [[]] * 8
+    assert sorted(told) == sorted(plan[number].key for number in numbers)
+    with BenchSession(tmp_path / "local", plan) as session:
+        list(session.run(numbers, session.local(2)))
+    pairs = list(zip(stored(tmp_path / "local"), stored(tmp_path / "cluster"), strict=True))
+    assert len(pairs) == 6
+    assert [list(result_differences(*pair)) for pair in pairs] == [[]] * 6
 
 
 def test_a_trial_that_crashes_costs_itself_only(cluster: DaskCluster, planners: Path) -> None:
     wanted = [*trials(2), *trials(2, f"{planners}:Exits"), *trials(1, "ooa")]
-    ends = {result.key: result.end for result, _ in results_on(cluster, wanted)}
+    ends = {result.key: result.end for result in results_on(cluster, wanted)}
     expected = [TrialEnd.FINISHED] * 2 + [TrialEnd.CRASHED] * 2 + [TrialEnd.FINISHED]
     assert [ends[trial.key] for trial in wanted] == expected
     assert all(worker.poll() is None for worker in cluster.workers)
 
 
 def test_who_stops_listening_leaves_the_cluster_free(cluster: DaskCluster) -> None:
-    ran = results_on(cluster, trials(500))
-    next(ran)
-    ran.close()
+    with closing(results_on(cluster, trials(500))) as ran:
+        next(ran)
     (after,) = trials(1, "ooa")
-    assert [result.key for result, _ in results_on(cluster, [after])] == [after.key]
+    assert [result.key for result in results_on(cluster, [after])] == [after.key]
 
 
 def test_workers_of_another_version_are_refused_at_once_and_when_they_come(cluster: DaskCluster) -> None:
@@ -100,9 +109,9 @@ def test_workers_of_another_version_are_refused_at_once_and_when_they_come(clust
     next(ran)
     stranger = cluster.start_worker("--no-nanny", **{VERSION: "2"})
     try:
-        with pytest.raises(UnfitWorkerError, match="versions differ: phframe is 2, here 1"):
+        with pytest.raises(UnfitWorkerError, match="phframe is 2 there, 1 here"):
             list(ran)
-        with pytest.raises(UnfitWorkerError, match=r"worker tcp://.* cannot run trials: its versions differ"):
+        with pytest.raises(UnfitWorkerError, match=r"worker tcp://.* cannot run trials: it is not like this computer"):
             next(results_on(cluster, trials(1)))
     finally:
         stranger.kill()
@@ -114,7 +123,8 @@ def test_a_worker_that_may_not_start_processes_is_refused_with_the_setting(tmp_p
         own.start_worker("--nanny")
         with pytest.raises(UnfitWorkerError, match="DASK_DISTRIBUTED__WORKER__DAEMON=False"):
             next(results_on(own, trials(1)))
-        own.workers.pop().terminate()
+        own.workers[0].terminate()
+        own.workers[0].wait(60)
         own.start_worker("--nanny", DASK_DISTRIBUTED__WORKER__DAEMON="False")
         assert len(list(results_on(own, trials(1)))) == 1
 
@@ -141,6 +151,6 @@ def test_a_scheduler_that_goes_away_is_told(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "nonsense://x:1", ""])
 def test_an_address_without_a_scheduler_is_told(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("phframe.bench.dask_.PATIENCE", 0.5)
+    monkeypatch.setattr("phframe.bench.schedulers.dask_.PATIENCE", 0.5)
     with pytest.raises(InputError, match="no Dask scheduler at"):
         next(run_on_cluster(address, trials(1), WorkerSpec.of(look, LIMITS)))

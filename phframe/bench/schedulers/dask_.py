@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing, suppress
+from functools import partial
 from itertools import islice
 from typing import Any
 from uuid import uuid4
 
-from phframe.bench.environment import Environment
-from phframe.bench.on_worker import UnfitWorkerError, WorkerSpec, examine, run_here
+from phframe.bench.bench_plan import BenchPlan
+from phframe.bench.schedulers.on_worker import UnfitWorkerError, WorkerSpec, examine, run_here
+from phframe.bench.session import Scheduler
+from phframe.bench.surroundings import surroundings
 from phframe.bench.trial import Trial
 from phframe.bench.trial_process import Ending
 from phframe.core import InputError, NotInstalledError, PhframeError
@@ -27,9 +30,20 @@ class ClusterError(PhframeError):
     """A cluster that lost trials: they have no result and are run when the bench is started again."""
 
 
+def cluster_scheduler(address: str, plan: BenchPlan) -> Scheduler:
+    """What runs the trials of a bench on the workers of a cluster.
+
+    Args:
+        address: Of its scheduler.
+        plan: The bench.
+    """
+    look = partial(surroundings, tuple(plan.specs.values()))
+    return lambda trials, limits: run_on_cluster(address, trials, WorkerSpec.of(look, limits, plan.modules))
+
+
 def run_on_cluster(
     address: str, trials: Iterable[Trial], spec: WorkerSpec
-) -> Iterator[tuple[Trial, Ending, Environment]]:
+) -> Generator[tuple[Trial, Ending], None, None]:
     """Run trials and tell of each as it ends, and where. Close the iterator to take back those that wait.
 
     A worker may die at any moment: what it was at is run on another one. Workers may come at any moment.
@@ -64,15 +78,15 @@ class _Submission:
         self._name = f"phframe-{uuid4().hex[:12]}"
         self._count = 0
 
-    def run(self, waiting: Iterator[Trial]) -> Iterator[tuple[Trial, Ending, Environment]]:
+    def run(self, waiting: Iterator[Trial]) -> Iterator[tuple[Trial, Ending]]:
         """Submit trials as others end, and tell of each."""
         lost = 0
         try:
             self._submit(islice(waiting, AHEAD))
             for future in self._ended:
                 trial = self._trials.pop(future.key)
-                if (ran := self._result(future)) is not None:
-                    yield trial, *ran
+                if (ending := self._ending(future)) is not None:
+                    yield trial, ending
                 elif self._may_try_again(trial):
                     self._submit([trial])
                 else:
@@ -94,8 +108,8 @@ class _Submission:
             self._trials[key] = trial
             self._ended.add(self._client.submit(run_here, trial, self._spec, key=key, pure=False, retries=0))
 
-    def _result(self, future: Any) -> tuple[Ending, Environment] | None:
-        """What came of a trial; None: its workers died.
+    def _ending(self, future: Any) -> Ending | None:
+        """How a trial ended; None: its workers died.
 
         Raises:
             UnfitWorkerError: If the worker refused it.
@@ -104,8 +118,8 @@ class _Submission:
         from distributed import KilledWorker
 
         if future.status == "finished":
-            ran: tuple[Ending, Environment] = future.result()
-            return ran
+            ending: Ending = future.result()
+            return ending
         error = future.exception() if future.status == "error" else None
         if isinstance(error, KilledWorker):
             return None

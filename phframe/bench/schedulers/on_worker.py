@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib import metadata
 from multiprocessing.connection import wait
@@ -15,6 +15,7 @@ from phframe.bench.trial import Trial
 from phframe.bench.trial_process import Ending, TrialProcess, preload
 from phframe.core import PhframeError
 
+DASK = "distributed"
 _ALONE = Lock()
 """Held while a process is started or its exit code fetched: multiprocessing lets no two threads do so at once."""
 
@@ -30,19 +31,21 @@ class WorkerSpec:
     Attributes:
         look: Finds out where it is called: versions, code, machine.
         here: What it finds where the bench runs.
+        dask: The version of ``distributed`` there, which carries trials from process to process.
         limits: At which a trial's process is ended.
         modules: What the processes of trials have imported from the beginning.
     """
 
     look: Callable[[], Environment]
     here: Environment
+    dask: str
     limits: TrialLimits
     modules: tuple[str, ...] = ()
 
     @staticmethod
     def of(look: Callable[[], Environment], limits: TrialLimits, modules: Sequence[str] = ()) -> WorkerSpec:
         """For workers that are like this process."""
-        return WorkerSpec(look, _seen(look), limits, tuple(modules))
+        return WorkerSpec(look, look(), metadata.version(DASK), limits, tuple(modules))
 
 
 def examine(spec: WorkerSpec) -> Environment:
@@ -56,17 +59,17 @@ def examine(spec: WorkerSpec) -> Environment:
             "it may not start processes, and each trial needs one of its own: start workers with --no-nanny, or with "
             "DASK_DISTRIBUTED__WORKER__DAEMON=False in their environment"
         )
-    there = _seen(spec.look)
-    for what in ("versions", "code"):
-        wanted, found = getattr(spec.here, what), getattr(there, what)
-        other = [name for name in sorted(wanted.keys() | found.keys()) if wanted.get(name) != found.get(name)]
-        if other:
-            told = (f"{name} is {found.get(name, 'missing')}, here {wanted.get(name, 'missing')}" for name in other)
-            raise UnfitWorkerError(f"its {what} differ: {'; '.join(told)}. Install the same on all")
+    there, dask = spec.look(), metadata.version(DASK)
+    differing = [
+        *_differing({**spec.here.versions, DASK: spec.dask}, {**there.versions, DASK: dask}),
+        *_differing(spec.here.code, there.code, "the code of "),
+    ]
+    if differing:
+        raise UnfitWorkerError(f"it is not like this computer: {'; '.join(differing)}. Install the same on all")
     return there
 
 
-def run_here(trial: Trial, spec: WorkerSpec) -> tuple[Ending, Environment]:
+def run_here(trial: Trial, spec: WorkerSpec) -> Ending:
     """Run a trial in a process of its own on this worker: how it ended, and where.
 
     Raises:
@@ -81,13 +84,14 @@ def run_here(trial: Trial, spec: WorkerSpec) -> tuple[Ending, Environment]:
         while not process.listen():
             wait(process.waitables, process.seconds_left)
         with _ALONE:
-            return process.ending(), environment
+            return replace(process.ending(), environment=environment)
     except BaseException:
         process.end()
         raise
 
 
-def _seen(look: Callable[[], Environment]) -> Environment:
-    """What is found here, and the version of what carries trials from process to process."""
-    found = look()
-    return replace(found, versions={**found.versions, "distributed": metadata.version("distributed")})
+def _differing(wanted: Mapping[str, str], found: Mapping[str, str], what: str = "") -> Iterator[str]:
+    for name in sorted(wanted.keys() | found.keys()):
+        there, here = (each.get(name, "missing") for each in (found, wanted))
+        if there != here:
+            yield f"{what}{name} is {there} there, {here} here"
