@@ -2,7 +2,7 @@
 # Written for GNU make 3.81 and newer and a POSIX shell.
 
 # The extras (see pyproject.toml) that each job is set up with; `make test TEST_EXTRAS=dev` tests without any.
-TEST_EXTRAS ?= dev,rerun
+TEST_EXTRAS ?= dev,rerun,parquet,cluster
 TEST_3D_EXTRAS ?= dev,mujoco,pybullet,ompl,baxter,meshes,video
 DEMO_EXTRAS ?= rerun
 PICTURES_EXTRAS ?= rerun,mujoco,ompl,baxter,meshes,video,plots

@@ -30,6 +30,21 @@ def suites_and_scenes(incomplete: str) -> Offer:
     return [*names("scenes")(incomplete), *scenes(incomplete)]
 
 
+def benches(incomplete: str) -> Offer:
+    """The directories of benches."""
+    return _quietly(
+        lambda: [(path.parent.as_posix(), "a bench") for path in sorted(Path("runs").glob("*/results.sqlite"))],
+        incomplete,
+    )
+
+
+def differences(incomplete: str) -> Offer:
+    """In what a bench that goes on may differ."""
+    from phframe.bench.conflicts import Accept
+
+    return _quietly(lambda: [(each.value, "") for each in Accept], incomplete)
+
+
 def scenes_and_runs(incomplete: str) -> Offer:
     """Scenes, and the directories of runs."""
     return [*_quietly(_runs, incomplete), *scenes(incomplete)]
@@ -45,6 +60,11 @@ def export_formats(incomplete: str) -> Offer:
     return _quietly(lambda: [(form.name, form.what) for form in FORMATS.values()], incomplete)
 
 
+def result_formats(incomplete: str) -> Offer:
+    """What ``phframe bench export`` writes."""
+    return _quietly(_result_formats, incomplete)
+
+
 def options(context: typer.Context, incomplete: str) -> Offer:
     """The options of the planner given, and with a prefix those of the other parts."""
     return _quietly(lambda: _option_keys(context), incomplete)
@@ -55,6 +75,12 @@ def _quietly(offer: Callable[[], Iterable[tuple[str, str]]], incomplete: str) ->
         return [(name, summary) for name, summary in offer() if name.startswith(incomplete)]
     except Exception:  # noqa: BLE001 - a message would end up in the middle of what is being typed
         return []
+
+
+def _result_formats() -> Offer:
+    from phframe.bench.export.formats import RESULT_FORMATS
+
+    return [(form.name, form.what) for form in RESULT_FORMATS.values()]
 
 
 def _registered(kind: str) -> Offer:
