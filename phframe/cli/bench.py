@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from phframe.cli import completion
+from phframe.cli import bench_replay, completion
 from phframe.cli.bench_group import BenchGroup
 from phframe.cli.flags import Arm, finite, flag, part, path
 from phframe.cli.group import show_help
@@ -162,3 +162,8 @@ def run(
     )
     output = BenchOutput(out, workers, filter_text, retry_failed, list_trials, tuple(accept or ()), as_json, quiet)
     raise typer.Exit(run_bench(settings, output))
+
+
+app.command("replay", epilog="Example: phframe bench replay runs/published vieira/simple-01 phia 0")(
+    bench_replay.replay
+)
