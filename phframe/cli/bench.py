@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from phframe.cli import completion
+from phframe.cli import bench_replay, completion
 from phframe.cli.bench_export import export_results
 from phframe.cli.bench_group import BenchGroup
 from phframe.cli.bench_merge import merge
@@ -174,3 +174,8 @@ def run(
         out, workers, scheduler, filter_text, retry_failed, list_trials, tuple(accept or ()), as_json, quiet
     )
     raise typer.Exit(run_bench(settings, output))
+
+
+app.command("replay", epilog="Example: phframe bench replay runs/published vieira/simple-01 phia 0")(
+    bench_replay.replay
+)
