@@ -24,7 +24,7 @@ def picture(what: Listing | Description) -> RenderableType:
 def _listing(what: Listing) -> RenderableType:
     rows = table(what.title, "what it is")
     for item in what.items:
-        rows.add_row(item.name, _summary(item))
+        rows.add_row(Text(item.name), _summary(item))
     return Group(rows, *_broken(what.broken))
 
 

@@ -15,9 +15,16 @@ EXTENSIONS = [
         "phia",
         "phframe.planners.phia:PHIA",
         "Pushes the closest group of obstacles, grouped by persistent homology, until the corridor is empty",
+        variants=(
+            ("sweeps=paper", "PHIA with the one sweep of the paper's Algorithm 3, and no other where that fails"),
+        ),
     ),
     _own(
-        Kind.PLANNER, "ooa", "phframe.planners.ooa:OOA", "Pushes one obstacle at a time, the closest first; no grouping"
+        Kind.PLANNER,
+        "ooa",
+        "phframe.planners.ooa:OOA",
+        "Pushes one obstacle at a time, the closest first; no grouping",
+        variants=(("sweeps=paper", "OOA with the one sweep of the paper's Algorithm 3"),),
     ),
     _own(
         Kind.PLANNER,
@@ -49,6 +56,7 @@ EXTENSIONS = [
         "phis",
         "phframe.planners.phis:PHIS",
         "Searches the pushes of the closest group at every persistent radius for the least total pushing time",
+        variants=(("sweeps=paper", "PHIS with the one sweep of the paper's Algorithm 3 for each radius"),),
     ),
     _own(
         Kind.PLANNER,
