@@ -25,6 +25,26 @@ def scenes(incomplete: str) -> Offer:
     return _quietly(_scene_names, incomplete)
 
 
+def suites_and_scenes(incomplete: str) -> Offer:
+    """The suites of scenes, their scenes, and scene files."""
+    return [*names("scenes")(incomplete), *scenes(incomplete)]
+
+
+def benches(incomplete: str) -> Offer:
+    """The directories of benches."""
+    return _quietly(
+        lambda: [(path.parent.as_posix(), "a bench") for path in sorted(Path("runs").glob("*/results.sqlite"))],
+        incomplete,
+    )
+
+
+def differences(incomplete: str) -> Offer:
+    """In what a bench that goes on may differ."""
+    from phframe.bench.conflicts import Accept
+
+    return _quietly(lambda: [(each.value, "") for each in Accept], incomplete)
+
+
 def scenes_and_runs(incomplete: str) -> Offer:
     """Scenes, and the directories of runs."""
     return [*_quietly(_runs, incomplete), *scenes(incomplete)]
@@ -40,6 +60,11 @@ def export_formats(incomplete: str) -> Offer:
     return _quietly(lambda: [(form.name, form.what) for form in FORMATS.values()], incomplete)
 
 
+def result_formats(incomplete: str) -> Offer:
+    """What ``phframe bench export`` writes."""
+    return _quietly(_result_formats, incomplete)
+
+
 def options(context: typer.Context, incomplete: str) -> Offer:
     """The options of the planner given, and with a prefix those of the other parts."""
     return _quietly(lambda: _option_keys(context), incomplete)
@@ -52,10 +77,23 @@ def _quietly(offer: Callable[[], Iterable[tuple[str, str]]], incomplete: str) ->
         return []
 
 
+def _result_formats() -> Offer:
+    from phframe.bench.export.formats import RESULT_FORMATS
+
+    return [(form.name, form.what) for form in RESULT_FORMATS.values()]
+
+
 def _registered(kind: str) -> Offer:
     from phframe.registry import Kind, catalogue
 
-    return [(entry.name, entry.extension.summary) for entry in catalogue().extensions(Kind(kind))]
+    return [
+        offer
+        for entry in catalogue().extensions(Kind(kind))
+        for offer in [
+            (entry.name, entry.extension.summary),
+            *((f"{entry.name}[{options}]", summary) for options, summary in entry.extension.variants),
+        ]
+    ]
 
 
 def _scene_names() -> Offer:

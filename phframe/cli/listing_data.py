@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from phframe.core.errors import PhframeError
@@ -73,7 +73,7 @@ def listing(kind: Kind, title: str) -> Listing:
     items = []
     for entry in entries:
         try:
-            items.append(_item(entry))
+            items += [_item(entry), *_variants(entry)]
         except PhframeError as error:
             broken.append(BrokenItem(entry.distribution, entry.version, str(error)))
     return Listing(title, tuple(items), tuple(broken))
@@ -100,6 +100,12 @@ def _item(entry: Entry) -> Item:
         gap.remedy if gap else "",
         tuple(f"{entry.name}/{name}" for name in scene_names(entry)) if listed else (),
     )
+
+
+def _variants(entry: Entry) -> list[Item]:
+    """What is listed as a thing of its own although it is another with options."""
+    whole = _item(entry)
+    return [replace(whole, name=f"{entry.name}[{options}]", summary=text) for options, text in entry.extension.variants]
 
 
 def _item_as_json(item: Item, *, with_scenes: bool) -> dict[str, Any]:

@@ -38,7 +38,7 @@ def result_table(summary: Mapping[str, Any], directory: Path | None) -> Table:
 def _rows(summary: Mapping[str, Any], directory: Path | None) -> Iterator[tuple[str, Text | str]]:
     status = summary["status"]
     yield "scene", Text(summary["scene"])
-    parts = [summary[part] for part in ("planner", "backend", "arm", "topology")]
+    parts = [summary[part] for part in ("variant", "backend", "arm", "topology")]
     yield "with", Text(f"{', '.join(parts)}; seed {summary['seed']}")
     if planned := _planned_with(summary):
         yield "planned with", Text(", ".join(planned))

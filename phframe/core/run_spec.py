@@ -16,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, JsonValue, PlainSerializer, PlainVal
 from phframe.core.errors import InputError, OptionError
 from phframe.core.scene import Scene
 from phframe.core.value import Value
+from phframe.core.variant import variant_name
 
 FORMAT = 1
 """Of a run as JSON, and of its key: what changes the meaning of a field gets a new one."""
@@ -113,6 +114,10 @@ class RunSpec(Value):
         """What a part is called: its name, or its class's."""
         value = getattr(self, part)
         return value if isinstance(value, str) else (value if isinstance(value, type) else type(value)).__name__
+
+    def variant_of(self, part: str) -> str:
+        """What a part is called with its options, as in ``phia[sweeps=paper]``; of a run prepared, those not the default."""
+        return variant_name(self.name_of(part), self.options.get(part, {}))
 
     def to_json(self) -> str:
         """The run as JSON.

@@ -137,6 +137,14 @@ class Pushing:
             )
             yield grouped, action
 
+    def pushes_at_all_radii(self, problem: PushProblem) -> Iterator[Iterator[tuple[PushDecision, Action]]]:
+        """``pushes`` at every usable radius, ascending; where there is none, at the threshold h."""
+        diagram = self.diagram(problem)
+        radii = self.radii(diagram)
+        deviations = () if radii else (Deviation.FALLBACK_RADIUS,)
+        for radius in radii or [self.threshold]:
+            yield self.pushes(problem, diagram, radius, deviations)
+
     def sweeps(self, problem: PushProblem, chosen: IntArray) -> Iterator[tuple[PushDecision, Action]]:
         """The sweeps of any group of members, best first, without those that were rejected.
 

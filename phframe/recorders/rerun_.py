@@ -179,7 +179,8 @@ class RerunRecorder(Observer):
 
 def _properties(spec: RunSpec) -> dict[str, str]:
     """What an episode is run with, as text."""
-    named = {name: spec.name_of(name) for name in ("planner", "backend", "arm", "topology", "goal")}
+    named = {"variant": spec.variant_of("planner")}
+    named |= {name: spec.name_of(name) for name in ("planner", "backend", "arm", "topology", "goal")}
     options = {f"{part}_{key}": str(value) for part, given in spec.options.items() for key, value in given.items()}
     versions = {f"version_{name}": version for name, version in versions_of(spec).items()}
     return {**named, "seed": str(spec.seed), **options, **versions}

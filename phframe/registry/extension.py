@@ -41,6 +41,7 @@ class Extension:
         extra: The extra of its distribution that brings the libraries it needs, such as ``mujoco``; None: none.
         api_version: The ``API_VERSION`` it was written for; where it is not said, the first, which did not ask for it.
         uses: Further extras that it uses where they are installed, and whose versions belong to what it does.
+        variants: Options with which it is listed as a thing of its own, such as ``sweeps=paper``, each with its summary.
 
     Raises:
         PluginError: If the name or the target is not of that form.
@@ -53,6 +54,7 @@ class Extension:
     extra: str | None = None
     api_version: int = FIRST_API_VERSION
     uses: tuple[str, ...] = ()
+    variants: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
         if self.kind not in list(Kind):

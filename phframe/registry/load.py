@@ -15,6 +15,7 @@ from phframe.core.planner import Planner
 from phframe.core.run_spec import StoredName
 from phframe.core.suite import SceneSuite
 from phframe.core.topology import TopologyEngine
+from phframe.core.variant import merged_options, split_variant
 from phframe.registry.catalogue import Catalogue, Entry
 from phframe.registry.extension import Kind
 from phframe.registry.from_file import is_file, load_from_file
@@ -40,7 +41,7 @@ def load(kind: Kind, part: Any, registered: Catalogue | None = None) -> Any:
     Args:
         kind: What it is.
         part: A name, ``distribution:name``, or a file and a class in it, ``./mine.py:Mine``, unless that was read from a
-            file (``StoredName``); or a class, or an object of it.
+            file (``StoredName``), each also with options in brackets, ``phia[sweeps=paper]``; or a class, or an object.
         registered: Where names are looked up; None: all that is registered in this environment.
 
     Raises:
@@ -52,6 +53,7 @@ def load(kind: Kind, part: Any, registered: Catalogue | None = None) -> Any:
     if not isinstance(part, str):
         loaded = part if isinstance(part, type) else type(part)
         return _checked(kind, loaded.__name__, loaded)
+    part, _ = split_variant(part)
     if not is_file(part):
         entry = (registered or catalogue()).find(kind, part)
         return _checked(kind, entry.name, _import(entry))
@@ -94,19 +96,21 @@ def create(kind: Kind, part: Any, options: Mapping[str, Any] | None = None, regi
         if options:
             raise OptionError(f"{kind} {loaded.__name__} is an object with options of its own: give it none beside it")
         return part
-    name = part if isinstance(part, str) else part.__name__
-    return loaded(loaded.options_type.parse(options or {}, f"{kind} {name}"))
+    name, given = merged_options(part, options or {}) if isinstance(part, str) else (part.__name__, options or {})
+    return loaded(loaded.options_type.parse(given, f"{kind} {name}"))
 
 
 def identify(kind: Kind, part: Any, options: Mapping[str, Any] | None = None) -> tuple[Any, Mapping[str, Any]]:
     """A class or an object as its registered name and options, if its class is registered; else as it is.
 
+    Of a text, the name, and the options in its brackets with those beside it.
+
     Raises:
-        OptionError: If there are options beside an object.
+        OptionError: If there are options beside an object, or an option stands both in brackets and beside them.
         PluginError: If it does not keep to its interface.
     """
     if isinstance(part, str):
-        return part, options or {}
+        return merged_options(part, options or {})
     own = load(kind, part)
     names = [entry.name for entry in catalogue().extensions(kind) if entry.extension.target == _target(own)]
     if isinstance(part, type) or not names:

@@ -15,7 +15,8 @@ FORMAT = 1
 def summarize(episode: Episode, recording: Path | None = None) -> dict[str, Any]:
     """The episode's outcome; keys and units are fixed by the format number.
 
-    ``actions`` counts pushes (the paper's number of actions), ``planning_time`` is wall time with all replans (s),
+    ``variant`` is the planner with the options that are not the default, as in ``phia[sweeps=paper]``. ``actions``
+    counts pushes (the paper's number of actions), ``planning_time`` is wall time with all replans (s),
     ``execution_time`` simulated time (s), ``target_moved`` before the grasp (m), ``spilled`` leaves a retrieved target out.
     ``motion_planning_time`` is wall time of planning joint trajectories (s), ``tracking_error`` the fingertip's worst (m),
     ``prediction_error`` of the objects that actions moved (m), or null where nothing was predicted or moved; ``noise`` is
@@ -26,6 +27,7 @@ def summarize(episode: Episode, recording: Path | None = None) -> dict[str, Any]
         "format": FORMAT,
         "scene": episode.scene.name,
         "planner": spec.name_of("planner"),
+        "variant": spec.variant_of("planner"),
         "backend": spec.name_of("backend"),
         "arm": spec.name_of("arm"),
         "plan_backend": _planned_with(spec, "backend"),
