@@ -46,14 +46,14 @@ def _carried_out(spec: RunSpec) -> dict[str, Any]:
     except SystemExit as error:
         return _failed(TrialEnd.CRASHED, f"the code in it asked to exit, with {error.code!r}")
     except BaseException as error:  # noqa: BLE001 - it is told, not hidden
-        return _failed(TrialEnd.ERROR, _told(error))
+        return _failed(TrialEnd.ERROR, described(error))
 
 
 def _failed(end: TrialEnd, reason: str) -> dict[str, Any]:
     return {"end": end, "reason": " ".join(reason.split())[:_LONGEST], FAULT: traceback.format_exc()}
 
 
-def _told(error: BaseException) -> str:
+def described(error: BaseException) -> str:
     """An error in words, and where it arose if it is none of phframe's own."""
     if isinstance(error, PhframeError):
         return str(error)

@@ -145,6 +145,13 @@ class ResultStore:
             row = self._connection.execute(f"SELECT {_ALL} FROM results WHERE key = ?", (key,)).fetchone()
         return None if row is None else from_row(row)
 
+    def find(self, *words: str) -> list[TrialResult]:
+        """The results that are meant by the beginning of a key, or by a problem, planner and seed; retired ones left out."""
+        where = "key GLOB ? || '*'" if len(words) == 1 else "problem = ? AND planner = ? AND CAST(seed AS TEXT) = ?"
+        query = f"SELECT {_ALL} FROM results WHERE {where} AND NOT retired ORDER BY {_ORDER}"
+        with _told(self.path):
+            return [from_row(row) for row in self._connection.execute(query, words)]
+
     def add(self, result: TrialResult, *, fault: str = "", replace: bool = False) -> bool:
         """Store a result.
 

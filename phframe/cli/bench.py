@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from phframe.cli import completion
+from phframe.cli import bench_replay, completion
 from phframe.cli.bench_export import export_results
 from phframe.cli.bench_group import BenchGroup
 from phframe.cli.bench_merge import merge
@@ -111,9 +111,6 @@ Accepted = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the summary, or the list, as JSON instead of a table.")]
 
-app.command("export", epilog="Example: phframe bench export runs/published --out published.csv")(export_results)
-app.command("merge", epilog="Example: phframe bench merge runs/monday runs/tuesday --out runs/both")(merge)
-
 
 @app.command("run", epilog="Example: phframe bench papallas --planner phia --planner 'ooa[margin=0.02]' --workers 2")
 def run(
@@ -174,3 +171,10 @@ def run(
         out, workers, scheduler, filter_text, retry_failed, list_trials, tuple(accept or ()), as_json, quiet
     )
     raise typer.Exit(run_bench(settings, output))
+
+
+app.command("replay", epilog="Example: phframe bench replay runs/published vieira/simple-01 phia 0")(
+    bench_replay.replay
+)
+app.command("export", epilog="Example: phframe bench export runs/published --out published.csv")(export_results)
+app.command("merge", epilog="Example: phframe bench merge runs/monday runs/tuesday --out runs/both")(merge)
