@@ -75,7 +75,7 @@ def signed_rank(differences: Sequence[float]) -> float:
         return 1.0
     sizes = np.abs(left)
     exact = len(left) <= 50 and np.unique(sizes).size == len(left)
-    method: Literal["exact", "asymptotic"] = "exact" if exact else "asymptotic"
+    method: Literal["exact", "approx"] = "exact" if exact else "approx"
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of samples too small for the normal approximation: p says as much
         found = wilcoxon(left, method=method, correction=not exact)

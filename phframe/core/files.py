@@ -116,9 +116,13 @@ def write_file(path: Path, content: str | bytes, *, overwrite: bool = True) -> P
     """
     with NewFile(path, overwrite=overwrite) as file:
         with _told(path):
-            file.part.write_bytes(content.encode() if isinstance(content, str) else content)
+            file.part.write_bytes(_encoded(content))
         file.put()
     return path
+
+
+def _encoded(content: str | bytes) -> bytes:
+    return content.encode() if isinstance(content, str) else content
 
 
 def check_folder_writable(path: Path, *, overwrite: bool = False) -> None:
@@ -135,12 +139,12 @@ def check_folder_writable(path: Path, *, overwrite: bool = False) -> None:
         _check_folder(path.resolve())
 
 
-def write_folder(path: Path, files: Mapping[str, str], *, overwrite: bool = False) -> Path:
-    """Write a folder of text files; a new one appears whole or not at all.
+def write_folder(path: Path, files: Mapping[str, str | bytes], *, overwrite: bool = False) -> Path:
+    """Write a folder of files; a new one appears whole or not at all.
 
     Args:
         path: The folder; a symbolic link to one is followed.
-        files: The texts, by their paths in it.
+        files: What they hold, text as UTF-8, by their paths in it.
         overwrite: Whether it may hold files already, those of the same names to be replaced one by one, the others kept.
 
     Raises:
@@ -156,26 +160,26 @@ def write_folder(path: Path, files: Mapping[str, str], *, overwrite: bool = Fals
     return path
 
 
-def _make(place: Path, files: Mapping[str, str]) -> None:
+def _make(place: Path, files: Mapping[str, str | bytes]) -> None:
     """Make the folder under another name, and rename it; never onto one in use."""
     place.parent.mkdir(parents=True, exist_ok=True)
     made = place.parent / f".{place.name[:_SHOWN]}.{secrets.token_hex(6)}.part"
     made.mkdir()
     try:
-        for name, text in files.items():
-            write_file(made / name, text)
+        for name, content in files.items():
+            write_file(made / name, content)
         made.rename(place)
     finally:
         shutil.rmtree(made, ignore_errors=True)
 
 
-def _refill(place: Path, files: Mapping[str, str], overwrite: bool) -> None:
+def _refill(place: Path, files: Mapping[str, str | bytes], overwrite: bool) -> None:
     """Write all files beside their places before the first is put."""
     new: list[NewFile] = []
     try:
-        for name, text in files.items():
+        for name, content in files.items():
             new.append(NewFile(place / name, overwrite=overwrite))
-            new[-1].part.write_bytes(text.encode())
+            new[-1].part.write_bytes(_encoded(content))
         for file in new:
             file.put()
     finally:
