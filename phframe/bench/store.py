@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
-from types import TracebackType
+from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
 from phframe.bench.environment import Environment
@@ -26,7 +26,7 @@ BUSY = 60.0
 _SCHEMA = f"""
 CREATE TABLE bench (settings TEXT NOT NULL);
 CREATE TABLE problems (name TEXT PRIMARY KEY, digest TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE environments (id TEXT PRIMARY KEY, content TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE environments (number INTEGER PRIMARY KEY, id TEXT UNIQUE NOT NULL, content TEXT NOT NULL);
 CREATE TABLE results (key TEXT PRIMARY KEY, {DECLARED}, retired INTEGER NOT NULL DEFAULT 0);
 CREATE INDEX results_in_order ON results (retired, suite, problem, planner, seed, key);
 CREATE TABLE faults (key TEXT PRIMARY KEY, content TEXT NOT NULL) WITHOUT ROWID;
@@ -55,8 +55,15 @@ class ResultStore:
         self.path, self._connection = path, connection
 
     @classmethod
-    def create(cls, directory: str | Path, settings: BenchSettings) -> Self:
+    def create(
+        cls, directory: str | Path, settings: BenchSettings, problems: Mapping[str, str] = MappingProxyType({})
+    ) -> Self:
         """A new store in a directory, which is made if need be.
+
+        Args:
+            directory: Where.
+            settings: What the bench runs.
+            problems: A digest of every scene, by ``suite/name``.
 
         Raises:
             StoreError: If there is one already, or it cannot be made.
@@ -64,11 +71,25 @@ class ResultStore:
         path = Path(directory) / FILE
         with _told(path):
             path.parent.mkdir(parents=True, exist_ok=True)
-            if path.exists():
-                raise StoreError(f"{path_shown(path)} is there already: it holds another bench")
             store = cls(path, _connected(path, read_only=False))
-            store._make(settings)
+            try:
+                store._make(settings, problems)
+            except BaseException:
+                store.close()
+                raise
         return store
+
+    @classmethod
+    def is_in(cls, directory: str | Path) -> bool:
+        """Whether a directory holds a store, damaged or not. One whose making was cut short is none."""
+        path = Path(directory) / FILE
+        try:
+            with closing(cls(path, _connected(path, read_only=True))) as store:
+                return not store._is_empty
+        except sqlite3.OperationalError:  # there is no file
+            return path.exists()
+        except StoreError:
+            return True
 
     @classmethod
     def open(cls, directory: str | Path, *, read_only: bool = True) -> Self:
@@ -118,6 +139,13 @@ class ResultStore:
             row = self._connection.execute(f"SELECT {_ALL} FROM results WHERE key = ?", (key,)).fetchone()
         return None if row is None else from_row(row)
 
+    def find(self, *words: str) -> list[TrialResult]:
+        """The results that are meant by the beginning of a key, or by a problem, planner and seed; retired ones left out."""
+        where = "key GLOB ? || '*'" if len(words) == 1 else "problem = ? AND planner = ? AND CAST(seed AS TEXT) = ?"
+        query = f"SELECT {_ALL} FROM results WHERE {where} AND NOT retired ORDER BY {_ORDER}"
+        with _told(self.path):
+            return [from_row(row) for row in self._connection.execute(query, words)]
+
     def add(self, result: TrialResult, *, fault: str = "", replace: bool = False) -> bool:
         """Store a result.
 
@@ -149,16 +177,16 @@ class ResultStore:
         return str(self._one("SELECT content FROM faults WHERE key = ?", key) or "")
 
     def environments(self) -> dict[str, Environment]:
-        """Where the trials ran, by the id that results have."""
+        """Where the trials ran, by the id that results have, in the order of their first use."""
         with _told(self.path):
-            rows = self._connection.execute("SELECT id, content FROM environments ORDER BY id").fetchall()
+            rows = self._connection.execute("SELECT id, content FROM environments ORDER BY number").fetchall()
         return {name: Environment.from_json(content) for name, content in rows}
 
     def add_environment(self, environment: Environment) -> str:
         """Store where trials run; its id."""
         with self._transaction():
             row = (environment.id, environment.to_json())
-            self._connection.execute("INSERT OR IGNORE INTO environments VALUES (?, ?)", row)
+            self._connection.execute("INSERT OR IGNORE INTO environments (id, content) VALUES (?, ?)", row)
         return environment.id
 
     def problems(self) -> dict[str, str]:
@@ -166,7 +194,7 @@ class ResultStore:
         with _told(self.path):
             return dict(self._connection.execute("SELECT name, digest FROM problems ORDER BY name").fetchall())
 
-    def set_plan(self, settings: BenchSettings, keys: Collection[str], problems: Mapping[str, str]) -> None:
+    def set_plan(self, settings: BenchSettings, keys: Iterable[str], problems: Mapping[str, str]) -> None:
         """Say anew what the bench runs. Results of other trials are retired: kept, but no part of it.
 
         Args:
@@ -183,10 +211,19 @@ class ResultStore:
             self._connection.execute("UPDATE results SET retired = key NOT IN (SELECT key FROM planned)")
             self._connection.execute("DROP TABLE planned")
 
-    def _make(self, settings: BenchSettings) -> None:
-        self._connection.executescript(f"BEGIN IMMEDIATE; {_SCHEMA}")
-        self._connection.execute("INSERT INTO bench VALUES (?)", (settings.to_json(),))
-        self._connection.commit()
+    def _make(self, settings: BenchSettings, problems: Mapping[str, str]) -> None:
+        """Make the tables, all at once."""
+        with self._transaction():
+            if not self._is_empty:
+                raise StoreError(f"{path_shown(self.path)} is there already: it holds another bench")
+            for statement in filter(str.strip, _SCHEMA.split(";")):
+                self._connection.execute(statement)
+            self._connection.execute("INSERT INTO bench VALUES (?)", (settings.to_json(),))
+            self._connection.executemany("INSERT INTO problems VALUES (?, ?)", problems.items())
+
+    @property
+    def _is_empty(self) -> bool:
+        return not self._one("SELECT count(*) FROM sqlite_master")
 
     def _check(self) -> None:
         """See that this is a whole store of this format."""

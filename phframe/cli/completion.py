@@ -25,6 +25,26 @@ def scenes(incomplete: str) -> Offer:
     return _quietly(_scene_names, incomplete)
 
 
+def suites(incomplete: str) -> Offer:
+    """Suites, and the scenes of all of them."""
+    return [*_quietly(lambda: _registered("scenes"), incomplete), *scenes(incomplete)]
+
+
+def benches(incomplete: str) -> Offer:
+    """The directories of benches."""
+    return _quietly(
+        lambda: [(path.parent.as_posix(), "a bench") for path in sorted(Path("runs").glob("*/results.sqlite"))],
+        incomplete,
+    )
+
+
+def differences(incomplete: str) -> Offer:
+    """In what a bench that goes on may differ."""
+    from phframe.bench.conflicts import Accept
+
+    return _quietly(lambda: [(each.value, "") for each in Accept], incomplete)
+
+
 def scenes_and_runs(incomplete: str) -> Offer:
     """Scenes, and the directories of runs."""
     return [*_quietly(_runs, incomplete), *scenes(incomplete)]

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from phframe.cli import arm, listings, scene
+from phframe.cli import arm, bench, listings, scene
 from phframe.cli.console import emit
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.export import export
@@ -30,6 +30,7 @@ app.command("solve", epilog="Example: phframe solve papallas/s01 --planner ooa -
 app.command("export", epilog="Example: phframe export vieira/basic --arm planar --out basic.xml")(export)
 app.command("replay", epilog="Example: phframe replay runs/basic --backend mujoco")(replay)
 app.command("report", epilog="Example: phframe report runs/paper --figures figures")(report)
+app.add_typer(bench.app, name="bench")
 listings.add_to(app)
 app.add_typer(arm.app, name="arm")
 app.add_typer(scene.app, name="scene")

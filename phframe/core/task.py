@@ -92,6 +92,7 @@ class Task:
         self._began = time.perf_counter()
         self._cost = Cost()
         self._offered: Plan | None = None
+        self._first_solution_time: float | None = None
         self._tree: SearchTree | None = None
 
     def apply(self, state: State, action: Action, *, stop: Stop | None = None) -> Transition:
@@ -175,11 +176,18 @@ class Task:
     def offer(self, plan: Plan) -> None:
         """Keep a plan as the result in case the budget runs out; the last one offered counts."""
         self._offered = plan
+        if self._first_solution_time is None and plan.succeeded:
+            self._first_solution_time = self.elapsed
 
     @property
     def offered(self) -> Plan | None:
         """The plan last offered."""
         return self._offered
+
+    @property
+    def first_solution_time(self) -> float | None:
+        """Wall time until a plan that is worth carrying out was first offered (s); None: none was."""
+        return self._first_solution_time
 
     @property
     def elapsed(self) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 from dataclasses import dataclass
+from functools import cache
 from importlib import metadata
 from typing import TYPE_CHECKING
 
@@ -45,17 +46,21 @@ def missing(distribution: str, extra: str | None) -> Missing | None:
     return None
 
 
-def required(distribution: str, extra: str | None = None) -> list[str]:
-    """The libraries that a distribution, or one extra of it, needs here: canonical names, installed or not."""
+@cache
+def required(distribution: str, extra: str | None = None) -> tuple[str, ...]:
+    """The libraries that a distribution, or one extra of it, needs here: canonical names, installed or not.
+
+    Found out once per process: reading requirements takes longer than planning some pushes.
+    """
     from packaging.requirements import Requirement
     from packaging.utils import canonicalize_name
 
     try:
         requirements = [Requirement(line) for line in metadata.requires(distribution) or ()]
     except metadata.PackageNotFoundError:
-        return []
+        return ()
     here = [each for each in requirements if each.marker is None or each.marker.evaluate({"extra": extra or ""})]
-    return [canonicalize_name(each.name) for each in here if _belongs(each, extra)]
+    return tuple(canonicalize_name(each.name) for each in here if _belongs(each, extra))
 
 
 def _belongs(requirement: Requirement, extra: str | None) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Iterable, Iterator
+from functools import cache
 from importlib import metadata
 
 from phframe.core.errors import UnknownNameError
@@ -42,6 +43,7 @@ def _of_extras(distribution: str, extras: Iterable[str]) -> Iterator[str]:
         yield from required(library)
 
 
+@cache
 def _version(distribution: str) -> str:
     try:
         return metadata.version(distribution)

@@ -85,7 +85,7 @@ def _whisker(panel: Any, y: int, estimate: Estimate, scale: float) -> None:
 def _write(panel: Any, y: int, text: str) -> None:
     """The figure in a column at the right of the panel."""
     panel.annotate(
-        text, (1.0, y), (36, 0), ("axes fraction", "data"), textcoords="offset points", ha="right", va="center",
+        text, (1.0, y), (34, 0), ("axes fraction", "data"), textcoords="offset points", ha="right", va="center",
         color=MUTED, annotation_clip=False,
     )  # fmt: skip
 

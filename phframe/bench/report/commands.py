@@ -10,6 +10,8 @@ from phframe.bench.settings import MEMORY_LIMIT, BenchSettings
 from phframe.core import InputError, Loop, RunSpec
 from phframe.core.variant import split_variant, variant_name
 
+KEY_SHOWN = 12
+"""Digits of a trial's key, of which the beginning is enough."""
 _PARTS = ("backend", "arm", "plan_backend", "plan_arm", "topology", "goal")
 
 
@@ -29,7 +31,7 @@ def bench_command(settings: BenchSettings, out: str) -> str:
 
 def replay_command(directory: str, key: str) -> str:
     """The ``phframe bench replay`` of a trial."""
-    return shlex.join(["phframe", "bench", "replay", directory, key])
+    return shlex.join(["phframe", "bench", "replay", directory, key[:KEY_SHOWN]])
 
 
 def solve_command(spec: str) -> str:

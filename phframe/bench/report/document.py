@@ -21,14 +21,14 @@ class Column:
         name: Its heading.
         unit: Of its figures; empty: none.
         kind: How it is shown: figures stand to the right.
-        digits: Decimals of figures that are not whole.
+        digits: Decimals of figures that are not whole; None: three significant digits.
         scale: By what figures are multiplied to be in the unit.
     """
 
     name: str
     unit: str = ""
     kind: Kind = "text"
-    digits: int = 0
+    digits: int | None = 0
     scale: float = 1.0
 
     @property
@@ -51,13 +51,19 @@ class Column:
             return cell
         if self.kind == "p":
             return "< 0.001" if cell < 0.001 else f"{cell:.3f}"
-        return f"{cell * self.scale:.{self.digits}f}" if isinstance(cell, float) or self.scale != 1.0 else f"{cell}"
+        if isinstance(cell, int) and self.scale == 1.0:
+            return f"{cell}"
+        return _significant(cell * self.scale) if self.digits is None else f"{cell * self.scale:.{self.digits}f}"
 
     def interval(self, cell: Cell) -> str:
         """The interval of an estimate as text; empty: it has none."""
         if not isinstance(cell, Estimate) or cell.low is None or cell.high is None:
             return ""
         return f"{self.text(float(cell.low))} to {self.text(float(cell.high))}"
+
+
+def _significant(figure: float) -> str:
+    return f"{figure:.3g}" if abs(figure) < 1000 else f"{figure:.0f}"
 
 
 _KEY = str.maketrans({" ": "_", "%": "percent", "/": "_per_", **dict.fromkeys("[],:()")})

@@ -25,7 +25,7 @@ _SETTINGS: dict[str, Any] = {
     "axes.titlecolor": INK, "xtick.color": GRID, "ytick.color": GRID, "xtick.labelcolor": MUTED,
     "ytick.labelcolor": INK, "xtick.labelsize": 8, "ytick.labelsize": 8.5, "ytick.major.size": 0,
     "ytick.major.pad": 5, "legend.frameon": False, "legend.fontsize": 8.5, "legend.handlelength": 2.6,
-    "figure.facecolor": "white", "figure.constrained_layout.use": True, "text.parse_math": False,
+    "figure.facecolor": "white", "figure.constrained_layout.w_pad": 0.11, "figure.constrained_layout.use": True, "text.parse_math": False,
     "svg.fonttype": "none", "svg.hashsalt": "phframe", "pdf.fonttype": 42, "savefig.dpi": 160,
 }  # fmt: skip
 _FONT = re.compile(r"font: ((?:[a-z0-9.]+ )*?[0-9.]+px) '[^;\"]*")

@@ -100,7 +100,7 @@ def pairs_section(data: ReportData) -> Section:
     about = (
         "On the problems and seeds that both were given, and no others. Retrieved: exact McNemar test. Planning time and "
         "actions, where both retrieved: Wilcoxon's signed-rank test. All p are two-sided and adjusted for the number of pairs "
-        "of the table by Holm's method; those below 0.05 are marked. Choose planners to see their rows."
+        "of the table by Holm's method; those below 0.05 stand out. The ratio of times is the first planner's over the second's, the actions saved are those that the first needs fewer. Choose planners to see their rows."
     )
     if len(data.planners) < 2:
         return Section("pairs", "Paired comparison", "There is one planner, and nothing to compare it with.", ())
@@ -247,7 +247,7 @@ _PAIRS = (
     PLANNER, Column("against", kind="planner"), Column("pairs", kind="number"), Column("scenes", kind="number"),
     Column("only the first", kind="number"), Column("only the second", kind="number"), Column("both", kind="number"),
     Column("neither", kind="number"), Column("p, retrieved", kind="p"),
-    Column("planning time, median ratio", kind="number", digits=2), Column("p, time", kind="p"),
+    Column("time ratio, median", kind="number", digits=None), Column("p, time", kind="p"),
     Column("actions saved, mean", kind="number", digits=2), Column("p, actions", kind="p"),
     Column("left out, unpaired", kind="number"),
 )  # fmt: skip
