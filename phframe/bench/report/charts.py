@@ -81,7 +81,7 @@ def draw_profiles(profiles: Sequence[tuple[str, Mapping[str, Curve]]], looks: Ma
             _step(panel, curve, looks[name], name, 1.0, max(end, 2.0))
         panel.set_xscale("log")
         panel.set_xlim(1.0, max(end, 2.0))
-        logarithmic(panel.xaxis)
+        logarithmic(panel.xaxis, fixed=True)
         panel.set_title(title)
         panel.set_xlabel("factor to the best planner on the same problem")
     _finish(figure, panels, "problems [%]")

@@ -25,7 +25,8 @@ _SETTINGS: dict[str, Any] = {
     "axes.titlecolor": INK, "xtick.color": GRID, "ytick.color": GRID, "xtick.labelcolor": MUTED,
     "ytick.labelcolor": INK, "xtick.labelsize": 8, "ytick.labelsize": 8.5, "ytick.major.size": 0,
     "ytick.major.pad": 5, "legend.frameon": False, "legend.fontsize": 8.5, "legend.handlelength": 2.6,
-    "figure.facecolor": "white", "figure.constrained_layout.w_pad": 0.11, "figure.constrained_layout.use": True, "text.parse_math": False,
+    "figure.facecolor": "white",
+    "figure.constrained_layout.w_pad": 0.11, "figure.constrained_layout.use": True, "text.parse_math": False,
     "svg.fonttype": "none", "svg.hashsalt": "phframe", "pdf.fonttype": 42, "savefig.dpi": 160,
 }  # fmt: skip
 _FONT = re.compile(r"font: ((?:[a-z0-9.]+ )*?[0-9.]+px) '[^;\"]*")
@@ -51,11 +52,15 @@ def new_figure(width: float, height: float, columns: int, **more: Any) -> tuple[
     return figure, list(figure.subplots(1, columns, squeeze=False, **more)[0])
 
 
-def logarithmic(axis: Any) -> None:
-    """Give a logarithmic axis plain numbers: 0.1, 0.2, 0.5, 1."""
+def logarithmic(axis: Any, *, fixed: bool = False) -> None:
+    """Give a logarithmic axis plain numbers: 0.1, 0.2, 0.5, 1; it is made as long as a decade, so that there are some."""
     from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
     low, high = sorted(axis.get_view_interval())
+    if high < 10 * low and not fixed:
+        middle = (low * high) ** 0.5
+        low, high = middle / 10**0.5, middle * 10**0.5
+        axis.set_view_interval(low, high, ignore=True)
     steps = (1.0,) if high > 40 * low else (1.0, 2.0, 5.0)
     axis.set_major_locator(LogLocator(subs=steps))
     axis.set_major_formatter("{x:g}")

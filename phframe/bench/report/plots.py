@@ -100,7 +100,9 @@ def pairs_section(data: ReportData) -> Section:
     about = (
         "On the problems and seeds that both were given, and no others. Retrieved: exact McNemar test. Planning time and "
         "actions, where both retrieved: Wilcoxon's signed-rank test. All p are two-sided and adjusted for the number of pairs "
-        "of the table by Holm's method; those below 0.05 stand out. The ratio of times is the first planner's over the second's, the actions saved are those that the first needs fewer. Choose planners to see their rows."
+        "of the table by Holm's method; those below 0.05 stand out. "
+        "The ratio of times is the first planner's over the second's; actions saved are those that the first needs fewer. "
+        "Choose planners to see their rows."
     )
     if len(data.planners) < 2:
         return Section("pairs", "Paired comparison", "There is one planner, and nothing to compare it with.", ())
