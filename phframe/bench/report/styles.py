@@ -29,20 +29,18 @@ class PlannerStyle:
 
 
 def styles(planners: Sequence[str]) -> dict[str, PlannerStyle]:
-    """A style for each planner. Where there are more planners than colours, variants of one planner share its colour."""
+    """A style for each planner, of its own for up to 32.
+
+    Where there are more planners than colours, variants of one planner share its colour, unless those are too many.
+    """
     names = sorted(planners)
-    if len(names) <= len(LIGHT):
-        return {name: PlannerStyle(i, 0) for i, name in enumerate(names)}
-    families = {name: _family(name) for name in names}
-    order = {family: i for i, family in enumerate(sorted(set(families.values())))}
-    used = [0] * len(LIGHT)
-    found = {}
-    for name in names:
-        colour = order[families[name]] % len(LIGHT)
-        found[name] = PlannerStyle(colour, used[colour] % len(DASHES))
-        used[colour] += 1
-    return found
-
-
-def _family(name: str) -> str:
-    return split_variant(name.partition(" (")[0])[0]
+    if len(names) > len(LIGHT):
+        families = [split_variant(name.partition(" (")[0])[0] for name in names]
+        order = {family: i for i, family in enumerate(sorted(set(families)))}
+        found = {
+            name: PlannerStyle(order[f], families[:i].count(f))
+            for i, (name, f) in enumerate(zip(names, families, strict=True))
+        }
+        if len(order) <= len(LIGHT) and all(look.variant < len(DASHES) for look in found.values()):
+            return found
+    return {name: PlannerStyle(i % len(LIGHT), i // len(LIGHT) % len(DASHES)) for i, name in enumerate(names)}
