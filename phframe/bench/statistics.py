@@ -15,8 +15,8 @@ from phframe.core import FloatArray
 
 LEVEL = 0.95
 """Confidence level of all intervals."""
-RESAMPLES = 2000
-"""Of a bootstrap."""
+RESAMPLES, LEAST_RESAMPLES, DRAWS = 2000, 400, 4_000_000
+"""Of a bootstrap: as many as need no more draws than this, within these bounds."""
 MANY = 2000
 """From so many scenes on, the bootstrap's interval is the percentile one: the correction of BCa, of order 1/n, has no use."""
 
@@ -111,7 +111,7 @@ def typical(
         statistic: What is taken over scenes.
         seed: Of the resampling.
         level: Confidence.
-        resamples: How many.
+        resamples: How many at most; fewer where there are more than ``MANY`` scenes.
     """
     samples = [np.array([np.mean(found) for found in stratum.values() if len(found)]) for stratum in strata]
     everything = np.concatenate([*samples, np.zeros(0)])
@@ -139,6 +139,7 @@ def _bootstrapped(
         return function(np.concatenate([*found, still], axis=axis), axis=axis)
 
     many = sum(sample.size for sample in drawn) >= MANY
+    resamples = min(resamples, max(LEAST_RESAMPLES, DRAWS // sum(sample.size for sample in drawn)))
     for method in ("percentile",) if many else ("BCa", "percentile"):
         low, high = _interval(drawn, pooled, method, seed, level, resamples)
         if math.isfinite(low) and math.isfinite(high):

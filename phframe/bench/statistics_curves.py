@@ -40,7 +40,7 @@ class Curve(Value):
 
 
 @dataclass(frozen=True, slots=True)
-class Observed:
+class ObservedTrial:
     """How long a trial was observed, and whether it was solved then.
 
     Attributes:
@@ -52,7 +52,7 @@ class Observed:
     solved: bool
 
 
-def solved_over_time(trials: Sequence[Observed], level: float = LEVEL) -> Curve:
+def solved_over_time(trials: Sequence[ObservedTrial], level: float = LEVEL) -> Curve:
     """The fraction solved by each time: one less the product-limit estimate (Kaplan and Meier 1958).
 
     The band is of Greenwood's variance, on the scale of log(-log).
@@ -72,7 +72,7 @@ def solved_over_time(trials: Sequence[Observed], level: float = LEVEL) -> Curve:
     return Curve(np.asarray(cdf.quantiles)[kept], np.asarray(cdf.probabilities)[kept], low, high)
 
 
-def logrank_p(a: Sequence[Observed], b: Sequence[Observed]) -> float | None:
+def logrank_p(a: Sequence[ObservedTrial], b: Sequence[ObservedTrial]) -> float | None:
     """Two-sided p of the log-rank test (Mantel 1966) that two are solved alike fast; None: nothing is solved."""
     if not any(trial.solved for trial in (*a, *b)):
         return None
@@ -82,7 +82,7 @@ def logrank_p(a: Sequence[Observed], b: Sequence[Observed]) -> float | None:
     return p if np.isfinite(p) else 1.0
 
 
-def _censored(trials: Sequence[Observed]) -> CensoredData:
+def _censored(trials: Sequence[ObservedTrial]) -> CensoredData:
     times = np.array([trial.time for trial in trials])
     return CensoredData.right_censored(times, np.array([not trial.solved for trial in trials]))
 

@@ -45,14 +45,14 @@ def run(wanted: ReportRequest) -> None:
     _check(wanted)
     for library in ("jinja2", "matplotlib"):
         require(library, "the report", "report")
-    from phframe.bench.report.report import Report, read_bench
+    from phframe.bench.report.report import BenchReport, read_bench
 
     sources = [read_bench(directory) for directory in wanted.benches]
     asked = str(wanted.benches[0] / PAGE) if wanted.out is None else wanted.out
     page = Output(asked, force=wanted.force or wanted.out is None)
     figures = None if wanted.figures is None else Output(wanted.figures, force=wanted.force, folder=True)
     markdown = None if wanted.markdown is None else Output(wanted.markdown, force=wanted.force)
-    made = Report.of(sources)
+    made = BenchReport.of(sources)
     page.write(made.html)
     if figures is not None:
         figures.write_folder(made.figures())

@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from phframe.bench.statistics_curves import Observed, logrank_p, performance_profiles, solved_over_time
+from phframe.bench.statistics_curves import ObservedTrial, logrank_p, performance_profiles, solved_over_time
 
 # E. J. Freireich et al., Blood 21 (1963): weeks of remission of leukaemia, with 6-MP and with a placebo
 SOLVED = (6, 6, 6, 7, 10, 13, 16, 22, 23)
 CENSORED = (6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35)
 PLACEBO = (1, 1, 2, 2, 3, 4, 4, 5, 5, 8, 8, 8, 8, 11, 11, 12, 12, 15, 17, 22, 23)
-TREATED = [*(Observed(t, solved=True) for t in SOLVED), *(Observed(t, solved=False) for t in CENSORED)]
-UNTREATED = [Observed(t, solved=True) for t in PLACEBO]
-TRIALS = st.lists(st.builds(Observed, st.floats(0.001, 1e3), st.booleans()), min_size=1, max_size=30)
+TREATED = [*(ObservedTrial(t, solved=True) for t in SOLVED), *(ObservedTrial(t, solved=False) for t in CENSORED)]
+UNTREATED = [ObservedTrial(t, solved=True) for t in PLACEBO]
+TRIALS = st.lists(st.builds(ObservedTrial, st.floats(0.001, 1e3), st.booleans()), min_size=1, max_size=30)
 COST = st.one_of(st.floats(1e-3, 1e3), st.just(math.inf))
 
 
@@ -33,11 +33,11 @@ def test_logrank_of_remissions_is_as_published() -> None:
     from scipy.stats import chi2
 
     assert logrank_p(TREATED, UNTREATED) == pytest.approx(chi2.sf(16.79, 1), rel=0.01)
-    assert logrank_p([Observed(1.0, solved=False)], [Observed(1.0, solved=False)]) is None
+    assert logrank_p([ObservedTrial(1.0, solved=False)], [ObservedTrial(1.0, solved=False)]) is None
 
 
 @given(TRIALS)
-def test_solved_over_time_rises_within_its_band(trials: list[Observed]) -> None:
+def test_solved_over_time_rises_within_its_band(trials: list[ObservedTrial]) -> None:
     curve = solved_over_time(trials)
     assert (np.diff(curve.x) > 0).all()
     assert (np.diff(curve.y, prepend=0.0) > 0).all()
@@ -48,8 +48,8 @@ def test_solved_over_time_rises_within_its_band(trials: list[Observed]) -> None:
 
 
 @given(TRIALS)
-def test_what_is_censored_at_the_end_makes_a_plain_fraction(trials: list[Observed]) -> None:
-    late = [trial if trial.solved else Observed(2e3, solved=False) for trial in trials]
+def test_what_is_censored_at_the_end_makes_a_plain_fraction(trials: list[ObservedTrial]) -> None:
+    late = [trial if trial.solved else ObservedTrial(2e3, solved=False) for trial in trials]
     solved = sum(trial.solved for trial in trials)
     assert solved_over_time(late).at(1.5e3) == pytest.approx(solved / len(trials))
 

@@ -132,7 +132,7 @@ Part = Table | Picture | Text | Fold
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class ReportSection:
     """A section of a report.
 
     Attributes:

@@ -11,7 +11,7 @@ import numpy as np
 
 from phframe.bench.report.commands import replay_command, solve_command
 from phframe.bench.report.data import Group, ReportData
-from phframe.bench.report.document import Cell, Column, Fold, Section, Table, Text
+from phframe.bench.report.document import Cell, Column, Fold, ReportSection, Table, Text
 from phframe.bench.report.overview import PLANNER
 from phframe.bench.report.summary import GOAL_MET, finished, strata
 from phframe.bench.statistics import typical
@@ -32,10 +32,10 @@ def _count(name: str) -> Column:
     return Column(name, kind="number")
 
 
-def claims_section(data: ReportData) -> Section:
+def claims_section(data: ReportData) -> ReportSection:
     """A cross table of what the last plan of each trial promised and what the referee saw."""
     by_setting = {setting: _by_planner(groups) for setting, groups in data.settings}
-    return Section(
+    return ReportSection(
         "claims", "Claimed against verified",
         "What the last plan of each trial promised, and what the referee saw. Marked: claims that did not come true.",
         (_came_true(by_setting), *(_claims(setting, of) for setting, of in by_setting.items())),
@@ -78,7 +78,7 @@ def _came_true(by_setting: Mapping[str, Mapping[str, Sequence[TrialResult]]]) ->
     return Table("Claims to retrieve", columns, tuple(rows), frozenset((i, 4) for i, row in enumerate(rows) if row[4]))
 
 
-def bystanders_section(data: ReportData) -> Section:
+def bystanders_section(data: ReportData) -> ReportSection:
     """How far other objects were displaced, and what toppled or spilled."""
     columns = (
         PLANNER, _count("episodes"), Column("displaced, sum of a trial, mean", "mm", "number", 1, 1e3),
@@ -91,7 +91,7 @@ def bystanders_section(data: ReportData) -> Section:
         for i, group in enumerate(data.groups)
         for rows in [tuple(_bystanders(name, finished(of)) for name, of in group.by_planner.items())]
     )
-    return Section(
+    return ReportSection(
         "bystanders", "Bystanders",
         "The objects other than the target, in all trials that gave an episode: how far they ended from where they stood, "
         "how many lie on their side, how many left the board.",
@@ -109,7 +109,7 @@ def _bystanders(planner: str, of: Sequence[TrialResult]) -> tuple[Cell, ...]:
     )  # fmt: skip
 
 
-def prediction_section(data: ReportData) -> Section:
+def prediction_section(data: ReportData) -> ReportSection:
     """How well what was planned in predicts what it was carried out in."""
     columns = (
         Column("carried out in"), PLANNER, _count("trials with predictions"),
@@ -122,7 +122,7 @@ def prediction_section(data: ReportData) -> Section:
         for setting, groups in data.settings
         for planner, of in _by_planner(groups).items()
     )
-    return Section(
+    return ReportSection(
         "prediction", "Prediction error across fidelities",
         "Distance between where a plan had each moved object and where it was seen, the median of each trial; by what carried "
         "the plans out. Where that is what was planned in, it is the error of repeating a plan, which is none but for noise.",
@@ -150,7 +150,7 @@ def _by_planner(groups: Sequence[Group]) -> dict[str, list[TrialResult]]:
     return dict(sorted(found.items()))
 
 
-def failures_section(data: ReportData, listed: int = LISTED) -> Section:
+def failures_section(data: ReportData, listed: int = LISTED) -> ReportSection:
     """Every failure with its reason, by reason, and the commands that repeat it.
 
     Args:
@@ -159,14 +159,14 @@ def failures_section(data: ReportData, listed: int = LISTED) -> Section:
     """
     failed = [result for result in data.results if not result.retrieved]
     if not failed:
-        return Section("failures", "Failures", "Every trial retrieved its target.", ())
+        return ReportSection("failures", "Failures", "Every trial retrieved its target.", ())
     by_reason: dict[str, list[TrialResult]] = defaultdict(list)
     for result in failed:
         by_reason[f"{_end(result)}: {pattern(result.reason)}"].append(result)
     groups = sorted(by_reason.items(), key=lambda item: (-len(item[1]), item[0]))
     each = _allowed([len(of) for _, of in groups[:REASONS]], listed)
     folds = tuple(_fold(title, of, each, data.homes) for title, of in groups[:REASONS])
-    return Section(
+    return ReportSection(
         "failures", "Failures",
         f"{len(failed)} of {len(data.results)} trials did not retrieve. Reasons that differ in numbers only are one; each "
         "opens to its trials, with the command that repeats the trial from the bench, and the one that solves it anew.",

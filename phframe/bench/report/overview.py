@@ -9,19 +9,19 @@ from collections.abc import Iterator, Sequence
 from phframe.bench.environment import Environment
 from phframe.bench.report.commands import bench_command
 from phframe.bench.report.data import BenchSource, ReportData
-from phframe.bench.report.document import Cell, Column, Fold, Part, Section, Table, Text
+from phframe.bench.report.document import Cell, Column, Fold, Part, ReportSection, Table, Text
 from phframe.bench.report.summary import GroupSummary, PlannerSummary
 from phframe.bench.trial_result import TrialResult
 
 PLANNER = Column("planner", kind="planner")
 
 
-def run_section(data: ReportData) -> Section:
+def run_section(data: ReportData) -> ReportSection:
     """What was run: planners with their options, suites, seeds, versions, machine, and the command that repeats it."""
     parts: list[Part] = [_planners(data), _settings(data)]
     for source in data.sources:
         parts += [_source(source), *_environments(source)]
-    return Section(
+    return ReportSection(
         "run", "What was run",
         "Planners are called by their names with the options that are not the default. Times are of these machines, and "
         "comparable within one machine only.",
@@ -95,10 +95,10 @@ _SUMMARY = (
 )  # fmt: skip
 
 
-def summary_section(summaries: Sequence[GroupSummary]) -> Section:
+def summary_section(summaries: Sequence[GroupSummary]) -> ReportSection:
     """The table of planners by suites."""
     tables = tuple(Table(each.group.name, _SUMMARY, tuple(map(_row, each.planners))) for each in summaries)
-    return Section(
+    return ReportSection(
         "summary", "Summary",
         "Retrieved is what the referee saw: the target out of the shelf and in the hand. Reached is the paper's success: the "
         "gripper at a grasp pose, its link free. Clean: retrieved, nothing else toppled or spilled, no wall touched. Planning, "
@@ -117,9 +117,9 @@ def _row(summary: PlannerSummary) -> tuple[Cell, ...]:
     )  # fmt: skip
 
 
-def limitations_section(data: ReportData) -> Section:
+def limitations_section(data: ReportData) -> ReportSection:
     """What the figures do not say, and how often the published method was departed from."""
-    return Section(
+    return ReportSection(
         "limitations", "Known limitations",
         "What to know before these figures are quoted.",
         (*map(Text, _limitations(data)), *_deviations(data)),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
 
-from phframe.bench.report.document import Section
+from phframe.bench.report.document import ReportSection
 from phframe.bench.report.drawing import SHADES
 from phframe.bench.report.styles import DARK, LIGHT, PlannerStyle
 
@@ -13,7 +13,7 @@ _DARK_SHADES = ("#e3e9ef", "#a9b8c6", "#71879b", "#43566a")
 """Of the parts of a whole, on a dark page."""
 
 
-def as_html(title: str, lead: str, sections: Sequence[Section], looks: Mapping[str, PlannerStyle]) -> str:
+def as_html(title: str, lead: str, sections: Sequence[ReportSection], looks: Mapping[str, PlannerStyle]) -> str:
     """The page. Whatever stands in names and reasons is text in it, never markup.
 
     Args:

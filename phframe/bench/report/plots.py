@@ -9,12 +9,12 @@ from typing import Any
 from phframe.bench.report.bars import draw_bars
 from phframe.bench.report.charts import draw_cost_split, draw_distributions, draw_profiles, draw_solved_over_time
 from phframe.bench.report.data import Group, ReportData
-from phframe.bench.report.document import Cell, Column, Fold, Part, Picture, Section, Table, Text
+from phframe.bench.report.document import Cell, Column, Fold, Part, Picture, ReportSection, Table, Text
 from phframe.bench.report.drawing import as_svg
 from phframe.bench.report.overview import PLANNER
 from phframe.bench.report.styles import PlannerStyle
 from phframe.bench.report.summary import GroupSummary, finished
-from phframe.bench.statistics_curves import Curve, Observed, logrank_p, performance_profiles, solved_over_time
+from phframe.bench.statistics_curves import Curve, ObservedTrial, logrank_p, performance_profiles, solved_over_time
 from phframe.bench.statistics_paired import LEAST_TIME, PairedComparison, Problem, compare_all, holm
 from phframe.bench.trial_result import TrialResult
 
@@ -22,7 +22,7 @@ Looks = Mapping[str, PlannerStyle]
 NOBODY = "No trial retrieved here, so there is nothing to draw."
 
 
-def bars_section(summaries: Sequence[GroupSummary], looks: Looks) -> Section:
+def bars_section(summaries: Sequence[GroupSummary], looks: Looks) -> ReportSection:
     """The paper's bar charts."""
     caption = (
         "Bars and points with intervals of 95 % (Wilson; BCa bootstrap by scene). The upright stroke in the first panel is the "
@@ -38,10 +38,10 @@ def bars_section(summaries: Sequence[GroupSummary], looks: Looks) -> Section:
         for i, each in enumerate(summaries)
     ]  # fmt: skip
     about = "The figures of the paper: rate of success, planning time, execution time and number of actions."
-    return Section("bars", "Success, time and actions", about, tuple(parts))
+    return ReportSection("bars", "Success, time and actions", about, tuple(parts))
 
 
-def distributions_section(data: ReportData, looks: Looks) -> Section:
+def distributions_section(data: ReportData, looks: Looks) -> ReportSection:
     """Histograms of every planner."""
 
     def draw(group: Group, name: str) -> Iterator[Part]:
@@ -55,10 +55,10 @@ def distributions_section(data: ReportData, looks: Looks) -> Section:
         )
 
     about = "How times and actions are spread over the trials that retrieved. The stroke is the median."
-    return Section("distributions", "Distributions", about, _folds(data, "distributions", draw))
+    return ReportSection("distributions", "Distributions", about, _folds(data, "distributions", draw))
 
 
-def profile_section(data: ReportData, looks: Looks) -> Section:
+def profile_section(data: ReportData, looks: Looks) -> ReportSection:
     """Performance profiles."""
 
     def draw(group: Group, name: str) -> Iterator[Part]:
@@ -69,7 +69,7 @@ def profile_section(data: ReportData, looks: Looks) -> Section:
         picture = as_svg(draw_profiles(profiles, looks), name, f"Performance profiles: {group.name}")
         yield Picture(picture, f"Of the {common} problems with a seed that all planners were given.")
 
-    return Section(
+    return ReportSection(
         "profile", "Performance profile",
         "On what fraction of the problems a planner is within a factor of the best planner there (Dolan and Moré 2002). At the "
         "left: how often it is the best; at the right: how much it solves at all. The grasp counts as an action here, so that "
@@ -78,7 +78,7 @@ def profile_section(data: ReportData, looks: Looks) -> Section:
     )  # fmt: skip
 
 
-def time_section(data: ReportData, looks: Looks) -> Section:
+def time_section(data: ReportData, looks: Looks) -> ReportSection:
     """Solved over time."""
 
     def draw(group: Group, name: str) -> Iterator[Part]:
@@ -87,7 +87,7 @@ def time_section(data: ReportData, looks: Looks) -> Section:
         yield Picture(picture, _timed_out(group, end))
         yield from _logrank(group, data)
 
-    return Section(
+    return ReportSection(
         "time", "Solved over planning time",
         "The fraction of trials retrieved within a planning time (one less Kaplan and Meier's estimate), with bands of 95 %. "
         "Trials that ran out of time are censored at their limit; those whose planner gave up, or died, stay unsolved to the end.",
@@ -95,7 +95,7 @@ def time_section(data: ReportData, looks: Looks) -> Section:
     )  # fmt: skip
 
 
-def pairs_section(data: ReportData) -> Section:
+def pairs_section(data: ReportData) -> ReportSection:
     """Every two planners."""
     about = (
         "On the problems and seeds that both were given, and no others. Retrieved: exact McNemar test. Planning time and "
@@ -105,11 +105,11 @@ def pairs_section(data: ReportData) -> Section:
         "Choose planners to see their rows."
     )
     if len(data.planners) < 2:
-        return Section("pairs", "Paired comparison", "There is one planner, and nothing to compare it with.", ())
-    return Section("pairs", "Paired comparison", about, _folds(data, "pairs", lambda group, _: _pairs(group)))
+        return ReportSection("pairs", "Paired comparison", "There is one planner, and nothing to compare it with.", ())
+    return ReportSection("pairs", "Paired comparison", about, _folds(data, "pairs", lambda group, _: _pairs(group)))
 
 
-def cost_section(data: ReportData) -> Section:
+def cost_section(data: ReportData) -> ReportSection:
     """What planning time is spent on."""
 
     def draw(group: Group, name: str) -> Iterator[Part]:
@@ -126,7 +126,7 @@ def cost_section(data: ReportData) -> Section:
         ]
         yield Table("Mean of a trial", columns, tuple(rows))
 
-    return Section(
+    return ReportSection(
         "cost", "Cost split",
         "What the time before the arm moves goes into. The rest is planning that is neither topology nor simulation. With "
         "several workers, simulation is the sum over them and can exceed the wall time; the rest is then 0.",
@@ -202,11 +202,11 @@ def timed_out(result: TrialResult) -> bool:
     return not result.retrieved and ("timeout" in (result.status, result.claimed) or result.end.value == "killed")
 
 
-def observed(result: TrialResult, limit: float, end: float) -> Observed:
+def observed(result: TrialResult, limit: float, end: float) -> ObservedTrial:
     """A trial as it is told over planning time: solved, out of time at its limit, or given up and unsolved to the end."""
     if result.retrieved:
-        return Observed(max(result.planning_time, LEAST_TIME), solved=True)
-    return Observed(limit if timed_out(result) else max(end, limit), solved=False)
+        return ObservedTrial(max(result.planning_time, LEAST_TIME), solved=True)
+    return ObservedTrial(limit if timed_out(result) else max(end, limit), solved=False)
 
 
 def _timed_out(group: Group, end: float) -> str:

@@ -11,7 +11,7 @@ from typing import Any
 from phframe.bench.report.bars import draw_bars
 from phframe.bench.report.charts import draw_profiles, draw_solved_over_time
 from phframe.bench.report.data import ALL, BenchSource, Group, ReportData, gather
-from phframe.bench.report.document import Section
+from phframe.bench.report.document import ReportSection
 from phframe.bench.report.drawing import as_bytes, drawing
 from phframe.bench.report.outcomes import bystanders_section, claims_section, failures_section, prediction_section
 from phframe.bench.report.overview import limitations_section, run_section, summary_section
@@ -47,7 +47,7 @@ def read_bench(directory: Path) -> BenchSource:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Report(Value):
+class BenchReport(Value):
     """A report.
 
     Attributes:
@@ -60,10 +60,10 @@ class Report(Value):
     data: ReportData
     summaries: tuple[GroupSummary, ...]
     looks: Mapping[str, PlannerStyle]
-    sections: tuple[Section, ...]
+    sections: tuple[ReportSection, ...]
 
     @classmethod
-    def of(cls, sources: Sequence[BenchSource]) -> Report:
+    def of(cls, sources: Sequence[BenchSource]) -> BenchReport:
         """The report of one or several benches.
 
         Raises:

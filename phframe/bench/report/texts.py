@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from phframe.bench.report.document import Cell, Column, Section, Table
+from phframe.bench.report.document import Cell, Column, ReportSection, Table
 from phframe.bench.statistics import Estimate
 
 FORMAT = 1
@@ -17,7 +17,7 @@ _LEFT_OUT = ("failures",)
 """Sections whose tables Markdown has the first of, only: the others list single trials."""
 
 
-def as_markdown(title: str, sections: Sequence[Section]) -> str:
+def as_markdown(title: str, sections: Sequence[ReportSection]) -> str:
     """All tables but those that list single trials."""
     parts = [f"# {_escaped(title)}"]
     for section in sections:
@@ -46,7 +46,7 @@ def _escaped(text: str) -> str:
     return re.sub(r"([\\`*_|<>\[\]])", r"\\\1", " ".join(text.split()))
 
 
-def as_json(title: str, sections: Sequence[Section]) -> str:
+def as_json(title: str, sections: Sequence[ReportSection]) -> str:
     """All tables, their figures in SI units as they are, by section."""
     content = {section.name: [_object(table) for table in section.tables] for section in sections if section.tables}
     return json.dumps({"format": FORMAT, "title": title, "sections": content}, allow_nan=False)

@@ -11,7 +11,7 @@ import pytest
 
 from docs.chromium import ChromiumPage, find_chromium
 from phframe.bench.report.data import BenchSource
-from phframe.bench.report.report import Report
+from phframe.bench.report.report import BenchReport
 from phframe.bench.report.styles import DARK, LIGHT
 from tests.bench.synthetic import synthetic
 
@@ -24,7 +24,7 @@ WIDE, NARROW = 1280, 400
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("report") / "report.html"
     rows = tuple(synthetic(suites={"paper": 6, "near": 4}))
-    path.write_text(Report.of([BenchSource("runs/0", rows)]).html, "utf-8")
+    path.write_text(BenchReport.of([BenchSource("runs/0", rows)]).html, "utf-8")
     return path
 
 

@@ -10,9 +10,9 @@ from html.parser import HTMLParser
 import pytest
 
 from phframe.bench.report.data import BenchSource
-from phframe.bench.report.document import Column, Section, Table
+from phframe.bench.report.document import Column, ReportSection, Table
 from phframe.bench.report.outcomes import failures_section, pattern
-from phframe.bench.report.report import Report
+from phframe.bench.report.report import BenchReport
 from phframe.bench.report.styles import DARK, LIGHT, styles
 from phframe.bench.statistics import Estimate, wilson
 from phframe.bench.statistics_paired import compare
@@ -28,16 +28,16 @@ def some(**more: object) -> tuple[TrialResult, ...]:
     return tuple(synthetic(**wanted))  # type: ignore[arg-type]
 
 
-def report_of(*sources: tuple[TrialResult, ...]) -> Report:
-    return Report.of([BenchSource(f"runs/{i}", rows) for i, rows in enumerate(sources)])
+def report_of(*sources: tuple[TrialResult, ...]) -> BenchReport:
+    return BenchReport.of([BenchSource(f"runs/{i}", rows) for i, rows in enumerate(sources)])
 
 
 @pytest.fixture(scope="module")
-def report() -> Report:
+def report() -> BenchReport:
     return report_of(some())
 
 
-def section(report: Report, name: str) -> Section:
+def section(report: BenchReport, name: str) -> ReportSection:
     (found,) = [each for each in report.sections if each.name == name]
     return found
 
@@ -70,7 +70,7 @@ class Outline(HTMLParser):
         self.text += data
 
 
-def test_the_summary_is_what_the_results_are(report: Report) -> None:
+def test_the_summary_is_what_the_results_are(report: BenchReport) -> None:
     (table,) = section(report, "summary").tables
     rows = some()
     assert column(table, "planner") == ["ooa", "phia", "random-push"]
@@ -83,7 +83,7 @@ def test_the_summary_is_what_the_results_are(report: Report) -> None:
         assert (rate.low, rate.high) == pytest.approx(wilson(won, len(of)))
 
 
-def test_pairs_are_compared_as_the_statistics_say(report: Report) -> None:
+def test_pairs_are_compared_as_the_statistics_say(report: BenchReport) -> None:
     (table,) = section(report, "pairs").tables
     by_planner = {n: {(r.suite, r.problem, r.seed): r for r in some() if r.planner == n} for n in ("ooa", "phia")}
     told = compare("ooa", "phia", by_planner["ooa"], by_planner["phia"])
@@ -92,13 +92,13 @@ def test_pairs_are_compared_as_the_statistics_say(report: Report) -> None:
     assert len(table.rows) == 3
 
 
-def test_every_failure_is_listed_once_with_the_command_that_repeats_it(report: Report) -> None:
+def test_every_failure_is_listed_once_with_the_command_that_repeats_it(report: BenchReport) -> None:
     keys = re.findall(r"phframe bench replay runs/0 ([0-9a-f]{12})", report.html)
     assert sorted(keys) == sorted(row.key[:12] for row in some() if not row.retrieved)
     assert keys
 
 
-def test_claims_that_did_not_come_true_are_marked(report: Report) -> None:
+def test_claims_that_did_not_come_true_are_marked(report: BenchReport) -> None:
     table = section(report, "claims").tables[1]
     false = [row for row in some() if row.claimed == "retrieved" and not row.retrieved]
     marked = [table.rows[i][j] for i, j in table.marked]
@@ -106,7 +106,7 @@ def test_claims_that_did_not_come_true_are_marked(report: Report) -> None:
     assert all(table.rows[i][1] == "retrieved" for i, _ in table.marked)
 
 
-def test_deviations_are_counted(report: Report) -> None:
+def test_deviations_are_counted(report: BenchReport) -> None:
     (table,) = section(report, "limitations").tables
     told = dict(zip(column(table, "planner"), column(table, "arm tilted"), strict=True))
     assert told["phia"] == sum(row.deviations.get("arm tilted", 0) for row in some() if row.planner == "phia")
@@ -129,7 +129,7 @@ def test_what_is_in_names_and_reasons_is_text() -> None:
     assert json.loads(report.json)["sections"]["summary"]
 
 
-def test_the_page_asks_for_nothing_else(report: Report) -> None:
+def test_the_page_asks_for_nothing_else(report: BenchReport) -> None:
     outline = Outline(report.html)
     for _, attributes in outline.tags:
         for name in ("src", "href", "xlink:href", "data", "action"):
@@ -142,7 +142,7 @@ def test_the_page_asks_for_nothing_else(report: Report) -> None:
     assert {use["href"] for tag, use in outline.tags if tag == "use"} <= {f"#{each}" for each in ids}
 
 
-def test_no_colour_is_left_that_does_not_follow_the_theme(report: Report) -> None:
+def test_no_colour_is_left_that_does_not_follow_the_theme(report: BenchReport) -> None:
     pictures = re.findall(r"<svg.*?</svg>", report.html, flags=re.DOTALL)
     assert len(pictures) >= 5
     assert (
@@ -239,11 +239,11 @@ def test_each_planner_has_a_look_of_its_own() -> None:
         looks = styles(names)
         assert len({(look.colour, look.variant) for look in looks.values()}) == len(names)
     assert len(LIGHT) == len(DARK) == len(set(LIGHT)) == len(set(DARK))
-    nine = styles(SKILL)
+    nine = styles(list(SKILL))
     assert nine["phia"].colour == nine["phia[sweeps=paper]"].colour
 
 
-def test_the_json_has_every_row_of_every_table(report: Report) -> None:
+def test_the_json_has_every_row_of_every_table(report: BenchReport) -> None:
     content = json.loads(report.json)
     assert [len(t["rows"]) for t in content["sections"]["summary"]] == [
         len(t.rows) for t in section(report, "summary").tables
