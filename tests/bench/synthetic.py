@@ -1,93 +1,110 @@
-"""Results of a bench made up from a seed: plausible figures for the report, no measurements."""
+"""Results of trials that nobody ran: the same ones for the same seed, and hostile ones for hypothesis."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
+from hypothesis import strategies as st
 
+from phframe.bench.environment import Environment
+from phframe.bench.settings import BenchSettings
+from phframe.bench.store import ResultStore
 from phframe.bench.trial_result import TrialEnd, TrialResult
-from phframe.core import RunSpec
-from phframe.core.run_spec import Loop
-from phframe.core.variant import split_variant
+from phframe.core import Loop, RunSpec
 
-SKILL = {
-    "phia": (0.93, 0.03, 2.6), "phia[sweeps=paper]": (0.6, 0.02, 2.3), "phis": (0.95, 0.06, 1.9),
-    "phim": (0.93, 0.12, 1.8), "ooa": (0.87, 0.05, 5.0), "grtc-straight": (0.62, 0.12, 3.1),
-    "random-push": (0.74, 0.09, 4.4), "grtc-kinodynamic": (0.35, 22.0, 3.4), "kinodynamic-rrt": (0.25, 31.0, 4.1),
-}  # fmt: skip
-"""Of each planner: how often it retrieves, its typical planning time (s), its mean number of pushes."""
-SUITES = {"paper": 121, "dense": 40, "near": 40}
-REASONS = (
-    "the corridor is not empty: no sweep fits beside o3 and o12",
-    "grasp blocked by o7",
-    "nothing moved: o5 is stuck against the north wall",
-    "no progress in 5 pushes",
+SETTINGS = BenchSettings(("vieira",), ("phia", "ooa"), seeds=3, loop=Loop(time_limit=30.0))
+ENVIRONMENT = Environment(
+    {"phframe": "0.1.0", "python": "3.11"}, "0123abc", {"phframe": "same"}, cpu="A processor", cores=2, memory=8000
 )
+HOSTILE = (
+    "two\nlines\r, a \"quote\", 'another', a comma, \ttabs\\n, ünï¢ödé, NUL \0, half a surrogate \udc80 \u2028 <b>"
+)
+SPEC = json.loads(RunSpec().to_json())
+PLANNERS = ("phia", "phia[sweeps=paper]", "ooa", "random")
 
 
-def synthetic(
-    planners: Sequence[str] = tuple(SKILL),
-    suites: dict[str, int] | None = None,
-    seeds: int = 1,
-    backend: str = "pymunk",
-    arm: str = "planar",
-    time_limit: float = 60.0,
-) -> Iterator[TrialResult]:
-    """Results of all planners on all problems of some suites."""
-    for suite, count in (suites or SUITES).items():
-        for number in range(count):
-            hardness = np.random.default_rng([len(suite), number]).random()
-            for planner in planners:
-                for seed in range(seeds):
-                    yield _result(planner, suite, number, seed, backend, arm, time_limit, hardness)
-
-
-def _result(
-    planner: str, suite: str, number: int, seed: int, backend: str, arm: str, limit: float, hardness: float
-) -> TrialResult:
-    skill, typical, pushes = SKILL.get(planner, (0.5, 0.1, 3.0))
-    rng = np.random.default_rng([sum(map(ord, planner)), len(suite), number, seed, len(backend)])
-    won = bool(hardness * 0.5 + rng.random() * 0.5 < skill)
-    time = float(rng.lognormal(np.log(typical), 0.6) * (0.5 + hardness))
-    killed, crashed = time > limit or rng.random() < 0.004, rng.random() < 0.003
-    end = TrialEnd.KILLED if killed else TrialEnd.CRASHED if crashed else TrialEnd.FINISHED
-    scene, (name, options) = f"{suite}/{number:03d}", split_variant(planner)
-    spec = RunSpec(
-        scene, name, backend, arm, "pymunk", arm, options={"planner": options}, seed=seed, loop=Loop(time_limit=limit)
+def synthetic_result(number: int, *, seed: int = 0) -> TrialResult:
+    """One result: the same for the same number and seed."""
+    rng = np.random.default_rng((seed, number))
+    planner, problem = PLANNERS[number % 4], f"random/{number // 4 % 100:03d}"
+    spec = {**SPEC, "scene": problem, "planner": planner.partition("[")[0], "seed": number // 400}
+    end = (TrialEnd.FINISHED, TrialEnd.FINISHED, *TrialEnd)[int(rng.integers(7))]
+    ended, retrieved = end is TrialEnd.FINISHED, end is TrialEnd.FINISHED and bool(rng.random() < 0.7)
+    return TrialResult(
+        key=f"{seed:08x}{number:024x}",
+        suite="paper",
+        problem=problem,
+        planner=planner,
+        backend="pymunk",
+        arm="planar",
+        plan_backend="pymunk",
+        plan_arm="planar",
+        seed=number // 400,
+        spec=json.dumps(spec),
+        end=end,
+        claimed="retrieved" if ended else "",
+        status=("retrieved" if retrieved else "failed") if ended else "",
+        reason="" if retrieved else f'no push of "{number}" is left, none\nis free',
+        retrieved=retrieved,
+        clean=retrieved and bool(rng.random() < 0.9),
+        pushes=int(rng.integers(9)),
+        simulations=int(rng.integers(400)),
+        planning_time=float(rng.exponential(0.1)),
+        first_solution_time=float(rng.exponential(0.1)) if retrieved else None,
+        execution_time=float(rng.exponential(20.0)),
+        displacement=float(rng.exponential(0.3)),
+        wall_contact=bool(rng.random() < 0.1),
+        largest_force=float(rng.exponential(4.0)),
+        deviations={"second try": int(rng.integers(1, 4))} if rng.random() < 0.3 else {},
+        wall_time=float(rng.exponential(1.0)),
+        peak_memory=int(rng.integers(1 << 28)),
+        started="2026-01-01T00:00:00+00:00",
+        environment=ENVIRONMENT.id,
     )
-    head = TrialResult(
-        spec.key(), suite, scene, planner, backend, arm, "pymunk", arm, seed, spec.to_json(), end,
-        started="2026-11-25T12:00:00+00:00", environment="e0",
-    )  # fmt: skip
-    if end is not TrialEnd.FINISHED:
-        why = f"killed after {limit * 1.5 + 60:g} s" if killed else "died by signal 11"
-        return _with(head, reason=why, wall_time=limit if killed else time)
-    actions = int(rng.poisson(max(pushes - 1, 0.1)) + 1)
-    topples = int(rng.random() < 0.05)
-    claims = won or rng.random() < 0.3
-    return _with(
-        head,
-        claimed="retrieved" if claims else "failed",
-        status="retrieved" if won else ("reached" if claims and rng.random() < 0.5 else "failed"),
-        reason="" if won else REASONS[int(rng.integers(len(REASONS)))],
-        retrieved=won, clean=won and not topples, pushes=actions if won else int(rng.integers(0, 6)),
-        replans=int(rng.integers(0, 2)), rejections=int(rng.integers(0, 2)), simulations=3 * actions,
-        planning_time=time, topology_time=0.05 * time * rng.random(), simulation_time=time * (0.6 + 0.2 * rng.random()),
-        motion_planning_time=0.0 if arm == "planar" else float(rng.lognormal(-1, 0.3)) * actions,
-        first_solution_time=0.9 * time if claims else None, execution_time=5.0 + 3.2 * actions + float(rng.random()),
-        displacement=float(rng.exponential(0.2)), largest_displacement=float(rng.exponential(0.1)), toppled=topples,
-        spilled=int(rng.random() < 0.02), target_moved=float(rng.exponential(0.005)),
-        wall_contact=bool(rng.random() < 0.03), largest_force=float(rng.exponential(10)),
-        tracking_error=float(rng.exponential(0.001)),
-        prediction_error=None if backend == "pymunk" and rng.random() < 0.1 else float(rng.exponential(0.004)),
-        largest_prediction_error=float(rng.exponential(0.02)),
-        deviations={"fallback radius": 1, "arm tilted": actions} if planner.startswith("phi") else {},
-        wall_time=time + 0.4, peak_memory=int(2e8),
-    )  # fmt: skip
 
 
-def _with(result: TrialResult, **changes: object) -> TrialResult:
-    from dataclasses import replace
+def synthetic_results(count: int, *, seed: int = 0) -> Iterator[TrialResult]:
+    """That many results, one by one."""
+    return (synthetic_result(number, seed=seed) for number in range(count))
 
-    return replace(result, **changes)  # type: ignore[arg-type]
+
+def hostile_result() -> TrialResult:
+    """A result whose texts hold what breaks naive writers."""
+    result = synthetic_result(7)
+    return replace(result, reason=HOSTILE, planner=f"x[{HOSTILE}]", deviations={HOSTILE: 3}, largest_force=float("inf"))
+
+
+def written_store(folder: Path, results: list[TrialResult], settings: BenchSettings = SETTINGS) -> Path:
+    """The directory of a bench that holds these results."""
+    with ResultStore.create(folder, settings, {}) as store:
+        store.add_environment(ENVIRONMENT)
+        for result in results:
+            store.add(result)
+    return folder
+
+
+_TEXTS = st.text(st.characters(categories=None), max_size=12)  # surrogates and zeros too
+_FLOATS = st.floats(allow_nan=False)
+_COUNTS = st.integers(0, 2**62)
+
+
+@st.composite
+def any_result(draw: st.DrawFn) -> TrialResult:
+    """A result with any texts and numbers."""
+    return replace(
+        synthetic_result(draw(st.integers(0, 99))),
+        key=draw(_TEXTS),
+        problem=draw(_TEXTS),
+        planner=draw(_TEXTS),
+        reason=draw(_TEXTS),
+        started=draw(_TEXTS),
+        planning_time=draw(_FLOATS),
+        largest_force=draw(_FLOATS),
+        first_solution_time=draw(st.none() | _FLOATS),
+        peak_memory=draw(_COUNTS),
+        deviations=draw(st.dictionaries(_TEXTS, _COUNTS, max_size=3)),
+    )

@@ -13,14 +13,14 @@ from phframe.bench.environment import Environment
 from phframe.bench.settings import BenchSettings
 from phframe.bench.store import FILE, ResultStore
 from phframe.bench.trial_result import TrialResult
-from tests.bench.synthetic import synthetic
+from tests.bench.report.synthetic import synthetic
 from tests.cli.conftest import Invoke, Run
 
 PLANNERS = ("phia", "ooa")
 
 
 def bench(directory: str, results: Sequence[TrialResult]) -> Path:
-    with ResultStore.create(directory, BenchSettings(("paper",), PLANNERS)) as store:
+    with ResultStore.create(directory, BenchSettings(("paper",), PLANNERS), {}) as store:
         store.add_environment(Environment({"python": "3.11.0"}, cpu="a processor"))
         for result in results:
             store.add(result)

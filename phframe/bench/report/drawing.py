@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -75,13 +76,21 @@ def colour_of(style: PlannerStyle) -> str:
 
 def shortened(name: str, longest: int = 38) -> str:
     """A name that leaves room for the figure."""
-    return name if len(name) <= longest else f"{name[: longest - 1]}…"
+    plain = "".join(letter if letter.isprintable() else "?" for letter in " ".join(name.split()))
+    return plain if len(plain) <= longest else f"{plain[: longest - 1]}…"
+
+
+def _save(figure: Any, stream: io.BytesIO | io.StringIO, **how: Any) -> None:
+    """Letters that the font lacks are drawn as boxes, and not complained of."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph")
+        figure.savefig(stream, **how)
 
 
 def as_bytes(figure: Any, form: str) -> bytes:
     """A figure as ``png`` or ``pdf``; the same figure, the same bytes."""
     stream = io.BytesIO()
-    figure.savefig(stream, format=form, metadata={"CreationDate": None} if form == "pdf" else {"Software": None})
+    _save(figure, stream, format=form, metadata={"CreationDate": None} if form == "pdf" else {"Software": None})
     return stream.getvalue()
 
 
@@ -94,7 +103,7 @@ def as_svg(figure: Any, name: str, label: str) -> str:
         label: What it shows, for those who do not see it.
     """
     stream = io.StringIO()
-    figure.savefig(stream, format="svg", transparent=True, metadata=dict.fromkeys(_METADATA))
+    _save(figure, stream, format="svg", transparent=True, metadata=dict.fromkeys(_METADATA))
     text = stream.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)

@@ -95,12 +95,12 @@ class BenchReport(Value):
             f"{len(results)} trials of {len(self.data.planners)} planners, {retrieved} retrieved their target. "
             "Every figure says what it is of; intervals are of 95 %."
         )
-        return as_html(self.title, lead, self.sections, self.looks)
+        return _encodable(as_html(self.title, lead, self.sections, self.looks))
 
     @property
     def markdown(self) -> str:
         """Its tables for a document."""
-        return as_markdown(self.title, self.sections)
+        return _encodable(as_markdown(self.title, self.sections))
 
     @property
     def json(self) -> str:
@@ -133,6 +133,14 @@ class BenchReport(Value):
             "profile": lambda: draw_profiles(profiles, self.looks) if profiles else None,
             "solved-over-time": lambda: draw_solved_over_time(curves, end, self.looks),
         }
+
+
+def _encodable(text: str) -> str:
+    """Text as files can hold it: halves of surrogate pairs and what pages may not hold are replaced."""
+    return _UNREADABLE.sub("\N{REPLACEMENT CHARACTER}", text)
+
+
+_UNREADABLE = re.compile("[\ud800-\udfff\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")
 
 
 def _slug(name: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -63,4 +64,6 @@ def _plain(column: Column, cell: Cell) -> Any:
     if isinstance(cell, Estimate):
         scaled = {name: _plain(column, getattr(cell, name)) for name in ("value", "low", "high")}
         return {**asdict(cell), **scaled}
-    return cell * column.scale if isinstance(cell, float) else cell
+    if isinstance(cell, float):
+        return cell * column.scale if math.isfinite(cell) else str(cell)
+    return cell

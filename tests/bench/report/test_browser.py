@@ -13,7 +13,7 @@ from docs.chromium import ChromiumPage, find_chromium
 from phframe.bench.report.data import BenchSource
 from phframe.bench.report.report import BenchReport
 from phframe.bench.report.styles import DARK, LIGHT
-from tests.bench.synthetic import synthetic
+from tests.bench.report.synthetic import synthetic
 
 BROWSER = find_chromium()
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")]

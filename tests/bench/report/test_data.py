@@ -10,7 +10,7 @@ import pytest
 from phframe.bench.report.data import ALL, BenchSource, ReportData, gather
 from phframe.bench.trial_result import TrialResult
 from phframe.core import InputError
-from tests.bench.synthetic import synthetic
+from tests.bench.report.synthetic import synthetic
 
 
 def few(**more: object) -> list[TrialResult]:

@@ -17,7 +17,8 @@ from phframe.bench.report.styles import DARK, LIGHT, styles
 from phframe.bench.statistics import Estimate, wilson
 from phframe.bench.statistics_paired import compare
 from phframe.bench.trial_result import TrialEnd, TrialResult
-from tests.bench.synthetic import SKILL, synthetic
+from tests.bench.report.synthetic import SKILL, synthetic
+from tests.bench.synthetic import hostile_result
 
 HOSTILE = '<script>alert("1")</script> | `x` <img src=http://example.invalid/a.png> & {{ 7*7 }}'
 VOID = {"meta", "link", "br", "img", "input", "use", "path", "rect"}
@@ -127,6 +128,18 @@ def test_what_is_in_names_and_reasons_is_text() -> None:
     lines = [line for line in report.markdown.splitlines() if line.startswith("|")]
     assert not any(re.search(r"(?<!\\)[<`]", re.sub(r"`[^`]*`", "", line)) for line in lines)
     assert json.loads(report.json)["sections"]["summary"]
+
+
+@pytest.mark.slow
+def test_texts_that_no_file_can_hold_and_figures_that_are_not_finite_are_told() -> None:
+    wild = hostile_result()
+    report = report_of((*some(), wild, replace(wild, key="other", planner="x\0\udc80")))
+    for text in (report.html, report.markdown, report.json):
+        text.encode()
+        assert "\0" not in text
+    assert Outline(report.html).open == []
+    assert json.loads(report.json)["sections"]["bystanders"]
+    assert report.figures()
 
 
 def test_the_page_asks_for_nothing_else(report: BenchReport) -> None:
