@@ -175,8 +175,16 @@ def check_phframe(words: list[str]) -> None:
         assert load(Kind.ARM, given["arm"])
         assert find_scene(given["scene"]) is not None
     elif given.get("name") is not None:
-        kind = {"scenes": Kind.SCENES, "topology": Kind.TOPOLOGY}.get(words[0])
-        describe(kind or Kind(words[0].removesuffix("s")), given["name"])
+        check_listed(words[0], given)
+
+
+def check_listed(title: str, given: dict[str, Any]) -> None:
+    """What a listing is to describe or show exists."""
+    if title == "scenes" and "/" in given["name"]:
+        assert find_scene(given["name"], parse_options(given["option"] or ())["scenes"]) is not None
+        return
+    kind = {"scenes": Kind.SCENES, "topology": Kind.TOPOLOGY}.get(title)
+    describe(kind or Kind(title.removesuffix("s")), given["name"])
 
 
 def leaf(command: Any, rest: list[str]) -> tuple[Any, list[str]]:

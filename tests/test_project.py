@@ -15,7 +15,7 @@ from packaging.utils import canonicalize_name
 from ruamel.yaml import YAML
 
 ROOT = Path(__file__).resolve().parent.parent
-ENGINES = {"rerun", "mujoco", "pybullet", "ompl", "baxter", "meshes", "video", "plots"}
+ENGINES = {"rerun", "mujoco", "pybullet", "ompl", "baxter", "meshes", "video", "plots", "parquet", "cluster"}
 
 
 @functools.cache

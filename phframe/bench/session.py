@@ -95,12 +95,15 @@ class BenchSession:
             numbers: Of the trials in the plan. A result that one has already is replaced.
             scheduler: What runs them.
         """
-        settings, environment = self.plan.settings, self.store.add_environment(self._environment)
+        settings = self.plan.settings
+        ids: dict[Environment | None, str] = {None: self.store.add_environment(self._environment)}
         limits = TrialLimits(settings.kill_after, settings.memory_limit)
         trials = (self.plan[number] for number in numbers)
         with closing(scheduler(trials, limits)) as endings:
             for trial, ending in endings:
-                result, fault = result_of(trial, ending, limits, environment)
+                if ending.environment is not None and ending.environment not in ids:
+                    ids[ending.environment] = self.store.add_environment(ending.environment)
+                result, fault = result_of(trial, ending, limits, ids[ending.environment])
                 self.store.add(result, fault=fault, replace=True)
                 yield result
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import closing, contextmanager
+from collections.abc import Generator, Iterable, Iterator, Mapping
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from types import MappingProxyType, TracebackType
 from typing import Any, Self
@@ -111,7 +111,10 @@ class ResultStore:
         return store
 
     def close(self) -> None:
-        """Close the file. May be called twice."""
+        """Close the file, which is then the only one of the store, unless somebody else has it open. May be called twice."""
+        with suppress(sqlite3.Error):  # closed already, or in use elsewhere, or nothing that is written
+            self._connection.execute("PRAGMA busy_timeout = 0")
+            self._connection.execute("PRAGMA journal_mode = DELETE")
         self._connection.close()
 
     def __enter__(self) -> Self:
@@ -127,8 +130,11 @@ class ResultStore:
         """What the bench runs."""
         return BenchSettings.from_json(str(self._one("SELECT settings FROM bench")))
 
-    def results(self) -> Iterator[TrialResult]:
-        """All results, one by one, ordered by suite, problem, planner and seed. Retired ones are left out."""
+    def results(self) -> Generator[TrialResult, None, None]:
+        """All results, one by one, ordered by suite, problem, planner and seed. Retired ones are left out.
+
+        Close the iterator before the store, unless it has come to its end.
+        """
         with _told(self.path), closing(self._connection.cursor()) as cursor:
             for row in cursor.execute(f"SELECT {_ALL} FROM results WHERE NOT retired ORDER BY {_ORDER}"):
                 yield from_row(row)

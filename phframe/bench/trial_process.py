@@ -12,6 +12,7 @@ from multiprocessing.connection import Connection, wait
 from typing import Any
 
 from phframe.bench.child import main
+from phframe.bench.environment import Environment
 from phframe.bench.isolation import kill_group
 from phframe.bench.limits import TrialLimits
 from phframe.bench.trial import Trial
@@ -45,6 +46,7 @@ class Ending:
         output: The last that it printed.
         wall_time: How long it ran (s).
         started: When, in UTC, ISO 8601.
+        environment: Where it ran; None: where the bench does.
     """
 
     code: int
@@ -53,6 +55,7 @@ class Ending:
     output: str
     wall_time: float
     started: str
+    environment: Environment | None = None
 
 
 class TrialProcess:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from enum import StrEnum
 
 from phframe.core import Value
+
+_UNWRITABLE = re.compile("[\0\ud800-\udfff]")
+"""What UTF-8 or a database cannot hold: zero characters, and surrogates, as of undecodable output."""
 
 
 class TrialEnd(StrEnum):
@@ -26,7 +30,9 @@ class TrialEnd(StrEnum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrialResult(Value):
-    """One row of a bench. Lengths in m, times in s, forces in N.
+    r"""One row of a bench. Lengths in m, times in s, forces in N.
+
+    Its texts can be written anywhere: a zero character or a lone surrogate in them becomes its escape, as in ``\x00``.
 
     Attributes:
         key: Of the trial.
@@ -113,3 +119,16 @@ class TrialResult(Value):
     peak_memory: int = 0
     started: str = ""
     environment: str = ""
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if type(value) is str and _UNWRITABLE.search(value):
+                object.__setattr__(self, each.name, _writable(value))
+        if any(map(_UNWRITABLE.search, self.deviations)):
+            deviations = {_writable(name): count for name, count in self.deviations.items()}
+            object.__setattr__(self, "deviations", deviations)
+
+
+def _writable(text: str) -> str:
+    return _UNWRITABLE.sub(lambda found: ascii(found[0])[1:-1], text)

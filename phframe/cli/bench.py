@@ -8,7 +8,9 @@ from typing import Annotated
 import typer
 
 from phframe.cli import bench_replay, completion
+from phframe.cli.bench_export import export_results
 from phframe.cli.bench_group import BenchGroup
+from phframe.cli.bench_merge import merge
 from phframe.cli.flags import Arm, finite, flag, part, path
 from phframe.cli.group import show_help
 from phframe.cli.options import parse_options
@@ -42,7 +44,7 @@ Suites = Annotated[
         metavar="SUITE...",
         help="Suites such as vieira ('phframe scenes' lists them; of a generator, its examples), problems such as "
         "papallas/s01, 'vieira/simple-*' or random/0..99, or scene files.",
-        autocompletion=completion.suites,
+        autocompletion=completion.suites_and_scenes,
     ),
 ]
 Planners = Annotated[
@@ -68,7 +70,11 @@ TrialLimit = Annotated[
         callback=finite,
     ),
 ]
-Workers = Annotated[int, flag("INTEGER", "Trials that run at once; each uses one core.", min=1)]
+Workers = Annotated[int, flag("INTEGER", "Trials that run at once on this machine; each uses one core.", min=1)]
+Address = Annotated[
+    str | None,
+    flag("ADDRESS", "Run the trials on a Dask cluster, as in tcp://10.0.0.1:8786 (extra 'cluster').", "this machine"),
+]
 Out = Annotated[
     Path | None,
     flag(
@@ -126,6 +132,7 @@ def run(
     memory_limit: MemoryLimit = 4096,
     trial_limit: TrialLimit = None,
     workers: Workers = 1,
+    scheduler: Address = None,
     out: Out = None,
     filter_text: Filter = "",
     retry_failed: RetryFailed = False,
@@ -160,10 +167,14 @@ def run(
         memory_limit,
         trial_limit,
     )
-    output = BenchOutput(out, workers, filter_text, retry_failed, list_trials, tuple(accept or ()), as_json, quiet)
+    output = BenchOutput(
+        out, workers, scheduler, filter_text, retry_failed, list_trials, tuple(accept or ()), as_json, quiet
+    )
     raise typer.Exit(run_bench(settings, output))
 
 
 app.command("replay", epilog="Example: phframe bench replay runs/published vieira/simple-01 phia 0")(
     bench_replay.replay
 )
+app.command("export", epilog="Example: phframe bench export runs/published --out published.csv")(export_results)
+app.command("merge", epilog="Example: phframe bench merge runs/monday runs/tuesday --out runs/both")(merge)

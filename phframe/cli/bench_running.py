@@ -11,7 +11,7 @@ from typing import Any
 
 from phframe.bench.bench_plan import BenchPlan
 from phframe.bench.conflicts import Accept
-from phframe.bench.session import BenchSession, Selected, select_trials, to_run
+from phframe.bench.session import BenchSession, Scheduler, Selected, select_trials, to_run
 from phframe.bench.settings import BenchSettings
 from phframe.bench.store import ResultStore
 from phframe.bench.summary import summary
@@ -19,8 +19,9 @@ from phframe.cli.bench_progress import BenchProgress
 from phframe.cli.bench_tables import summary_table, trial_table
 from phframe.cli.console import emit, note, show
 from phframe.cli.exit_codes import ExitCode
+from phframe.cli.needs import require
 from phframe.cli.run_directory import RunDirectory
-from phframe.core import UnknownNameError
+from phframe.core import OptionError, UnknownNameError
 from phframe.core.paths import path_shown
 
 FORMAT = 1
@@ -33,7 +34,8 @@ class BenchOutput:
 
     Attributes:
         out: Directory of the results; None: a new one.
-        workers: Trials that run at once.
+        workers: Trials that run at once on this machine.
+        scheduler: Address of the cluster that runs them; None: this machine does.
         wanted: Which trials, see ``select_trials``.
         retry: Whether those that failed are run again.
         only_list: Whether the trials are listed and none is run.
@@ -44,6 +46,7 @@ class BenchOutput:
 
     out: Path | None = None
     workers: int = 1
+    scheduler: str | None = None
     wanted: str = ""
     retry: bool = False
     only_list: bool = False
@@ -62,6 +65,7 @@ def run_bench(settings: BenchSettings, output: BenchOutput) -> int:
         PhframeError: If something asked for cannot be used; nothing was run then. Or the results cannot be written.
     """
     accepted = [_accepted(text) for text in output.accept]
+    _check_scheduler(output)
     there = output.out is not None and ResultStore.is_in(output.out)
     directory = None if there else RunDirectory(output.out)
     plan = BenchPlan.of(settings)
@@ -78,6 +82,24 @@ def _accepted(text: str) -> Accept:
     if text not in known:
         raise UnknownNameError("difference", text, known, "That is what --accept takes.")
     return Accept(text)
+
+
+def _check_scheduler(output: BenchOutput) -> None:
+    if output.scheduler is None:
+        return
+    require("distributed", "a bench on a cluster", "cluster")
+    if output.workers != 1:
+        raise OptionError(
+            "--workers is for this machine: a cluster has the workers that were started for it. Leave it out."
+        )
+
+
+def _scheduler(session: BenchSession, output: BenchOutput) -> Scheduler:
+    if output.scheduler is None:
+        return session.local(output.workers)
+    from phframe.bench.schedulers.dask_ import cluster_scheduler
+
+    return cluster_scheduler(output.scheduler, session.plan)
 
 
 def _list(plan: BenchPlan, output: BenchOutput) -> int:
@@ -117,7 +139,7 @@ def _run(session: BenchSession, path: Path, output: BenchOutput) -> int:
     try:
         with (
             BenchProgress(session.plan.settings.planners, len(numbers), shown=not output.quiet) as progress,
-            closing(session.run(numbers, session.local(output.workers))) as results,
+            closing(session.run(numbers, _scheduler(session, output))) as results,
         ):
             for result in results:
                 progress.count(result)

@@ -25,9 +25,9 @@ def scenes(incomplete: str) -> Offer:
     return _quietly(_scene_names, incomplete)
 
 
-def suites(incomplete: str) -> Offer:
-    """Suites, and the scenes of all of them."""
-    return [*_quietly(lambda: _registered("scenes"), incomplete), *scenes(incomplete)]
+def suites_and_scenes(incomplete: str) -> Offer:
+    """The suites of scenes, their scenes, and scene files."""
+    return [*names("scenes")(incomplete), *scenes(incomplete)]
 
 
 def benches(incomplete: str) -> Offer:
@@ -60,6 +60,11 @@ def export_formats(incomplete: str) -> Offer:
     return _quietly(lambda: [(form.name, form.what) for form in FORMATS.values()], incomplete)
 
 
+def result_formats(incomplete: str) -> Offer:
+    """What ``phframe bench export`` writes."""
+    return _quietly(_result_formats, incomplete)
+
+
 def options(context: typer.Context, incomplete: str) -> Offer:
     """The options of the planner given, and with a prefix those of the other parts."""
     return _quietly(lambda: _option_keys(context), incomplete)
@@ -70,6 +75,12 @@ def _quietly(offer: Callable[[], Iterable[tuple[str, str]]], incomplete: str) ->
         return [(name, summary) for name, summary in offer() if name.startswith(incomplete)]
     except Exception:  # noqa: BLE001 - a message would end up in the middle of what is being typed
         return []
+
+
+def _result_formats() -> Offer:
+    from phframe.bench.export.formats import RESULT_FORMATS
+
+    return [(form.name, form.what) for form in RESULT_FORMATS.values()]
 
 
 def _registered(kind: str) -> Offer:

@@ -12,7 +12,7 @@ import secrets
 import shutil
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
@@ -114,9 +114,24 @@ def write_file(path: Path, content: str | bytes, *, overwrite: bool = True) -> P
     Raises:
         InputError: If it cannot be written, or is there and may not be replaced.
     """
+    data = content.encode() if isinstance(content, str) else content
+    return write_file_by(path, lambda part: part.write_bytes(data), overwrite=overwrite)
+
+
+def write_file_by(path: Path, write: Callable[[Path], object], *, overwrite: bool = True) -> Path:
+    """Write a file, whole or not at all, by what fills an empty one bit by bit. As ``NewFile``.
+
+    Args:
+        path: Where it is to be.
+        write: Fills the temporary file whose path it is given.
+        overwrite: Whether a regular file that is there may be replaced.
+
+    Raises:
+        InputError: If it cannot be written, or is there and may not be replaced.
+    """
     with NewFile(path, overwrite=overwrite) as file:
         with _told(path):
-            file.part.write_bytes(content.encode() if isinstance(content, str) else content)
+            write(file.part)
         file.put()
     return path
 
@@ -147,24 +162,35 @@ def write_folder(path: Path, files: Mapping[str, str], *, overwrite: bool = Fals
         InputError: If it cannot be written, or holds something and may not.
     """
     check_folder_writable(path, overwrite=overwrite)
-    with _told(path):
-        place = path.resolve()
-        if place.exists():
-            _refill(place, files, overwrite)
-        else:
-            _make(place, files)
+    if path.exists():
+        with _told(path):
+            _refill(path.resolve(), files, overwrite)
+    else:
+        with new_folder(path) as made:
+            for name, text in files.items():
+                write_file(made / name, text)
     return path
 
 
-def _make(place: Path, files: Mapping[str, str]) -> None:
-    """Make the folder under another name, and rename it; never onto one in use."""
-    place.parent.mkdir(parents=True, exist_ok=True)
-    made = place.parent / f".{place.name[:_SHOWN]}.{secrets.token_hex(6)}.part"
-    made.mkdir()
+@contextmanager
+def new_folder(path: Path) -> Iterator[Path]:
+    """A folder that is filled under another name, which this gives, and put in place at the end; after an error it is gone.
+
+    Raises:
+        InputError: If it cannot be written, or there is one that is not empty.
+    """
+    check_folder_writable(path)
+    with _told(path):
+        place = path.resolve()
+        place.parent.mkdir(parents=True, exist_ok=True)
+        made = place.parent / f".{place.name[:_SHOWN]}.{secrets.token_hex(6)}.part"
+        made.mkdir()
     try:
-        for name, text in files.items():
-            write_file(made / name, text)
-        made.rename(place)
+        yield made
+        with _told(path):
+            if place.exists():
+                place.rmdir()
+            made.rename(place)
     finally:
         shutil.rmtree(made, ignore_errors=True)
 

@@ -1,0 +1,1 @@
+"""The results of a bench as files for other programs."""

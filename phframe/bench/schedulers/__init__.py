@@ -1,0 +1,1 @@
+"""What runs the trials of a bench elsewhere than on this machine."""
