@@ -9,7 +9,7 @@ PICTURES_EXTRAS ?= rerun,mujoco,ompl,baxter,meshes,video,plots
 BENCH_EXTRAS ?= dev,rerun,mujoco,pybullet,ompl,baxter
 SCENE ?= vieira/basic
 # What is tested with phframe: plugins as their users have them, installed.
-PLUGINS := plugins/phframe-random-push
+PLUGINS := plugins/phframe-lookahead
 3D := needs_mujoco or needs_pybullet or needs_ompl or needs_baxter or needs_meshes or needs_video
 PYTEST_FLAGS ?= --numprocesses=auto --benchmark-disable
 

@@ -72,6 +72,7 @@ def test_the_command_does_without_them(line: str, tmp_path: Path) -> None:
         ("solve --backend mujoco", "mujoco", "mujoco"),
         ("solve --arm baxter", "pin", "baxter"),
         ("solve --backend mujoco --arm articulated", "mujoco", "mujoco"),
+        ("solve --planner grtc-kinodynamic", "ompl", "ompl"),
         ("solve --video film.mp4", "av", "video"),
         ("scene import there.xml", "mujoco", "mujoco"),
         ("arm reach --arm baxter", "pin", "baxter"),

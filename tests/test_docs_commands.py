@@ -43,8 +43,8 @@ TOLD = [pytest.param(page, marks=marks(page), id=named(page)) for page in PAGES 
 
 @pytest.mark.parametrize("page", TOLD)
 def test_the_commands_of_a_document_run_in_order_in_a_clean_folder(page: Path, tmp_path: Path) -> None:
-    if "random-push" in "".join(commands(page)) and not _is_installed("phframe-random-push"):
-        pytest.skip("phframe-random-push is not installed")
+    if "lookahead" in "".join(commands(page)) and not _is_installed("phframe-lookahead"):
+        pytest.skip("phframe-lookahead is not installed")
     for name in ("docs", "phframe"):
         (tmp_path / name).symlink_to(ROOT / name)
     for line in commands(page):

@@ -24,17 +24,26 @@ from phframe.bench.export.columns import COLUMNS
 from phframe.bench.export.formats import RESULT_FORMATS
 from phframe.cli import exit_codes
 from phframe.cli.listing_data import listing
-from phframe.cli.option_list import describe
+from phframe.cli.option_list import OptionRow, describe
+from phframe.cli.scene_table import overview_as_json
 from phframe.core import Condition, Episode, Phase, Status
 from phframe.motion.options import ArticulatedOptions
 from phframe.pushing.deviation import Deviation
+from phframe.recorders.scene_overview import scene_overview
 from phframe.registry import Kind, builtin, create
 from phframe.registry.load import INTERFACES
+from phframe.runtime.scenes import find_scene
 from phframe.runtime.summary import summarize
 from phframe.urdf.description import ArmDescription, Section, Stand, TipFrame
 from tests.markdown import DOCS, PAGES, README, ROOT, blocks, column, each_page, extras, named, quoted, table, text_of
 
 PLANNERS = [each.name for each in builtin.EXTENSIONS if each.kind is Kind.PLANNER]
+GRTC = ("grtc-straight", "guided")
+"""Planners that have options of their own, in one table."""
+SEARCHES = ("phis", "phim")
+"""Planners with the family's options and further ones, in a table of their own."""
+KINODYNAMIC = ("grtc-kinodynamic", "kinodynamic-rrt")
+"""Planners whose options are told where they are described."""
 JSON_TYPES: Mapping[str, Any] = {
     "integer": int,
     "number": float,
@@ -161,11 +170,36 @@ def test_every_deviation_is_explained() -> None:
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_every_planner_and_its_options_are_explained(planner: str) -> None:
     assert f"\n## `{planner}`\n" in text_of(DOCS / "planners.md")
-    check_options(table("docs/planners.md", "Options"), Kind.PLANNER, planner)
+    check_options(option_rows(planner), Kind.PLANNER, planner)
+
+
+def option_rows(planner: str) -> list[list[str]]:
+    """The rows about a planner's options: those of its family, and its own, which say whose they are."""
+    if planner in KINODYNAMIC:
+        return table("docs/planners.md", f"`{planner}`")
+    if planner not in GRTC:
+        own = table("docs/planners.md", f"`{planner}`") if planner in SEARCHES else []
+        return table("docs/planners.md", "Options") + own
+    rows = table("docs/planners.md", "Options of `grtc-straight` and `guided`")
+    return [row for row in rows if not re.match(r"`?(grtc-straight|guided)`?:", row[3]) or planner in row[3]]
 
 
 def test_options_of_the_generator_are_explained() -> None:
     check_options(table("docs/scenes.md", "The generator"), Kind.SCENES, "random")
+
+
+@pytest.mark.parametrize(("suite", "heading"), [("dense", "Dense scenes"), ("near", "Near scenes")])
+def test_options_of_the_other_generators_are_explained_where_they_differ(suite: str, heading: str) -> None:
+    known = describe(Kind.SCENES, "random").options
+    differing = tuple(option for option in describe(Kind.SCENES, suite).options if option not in known)
+    check_rows(table("docs/scenes.md", heading), differing)
+
+
+def test_every_key_of_a_scene_shown_is_explained() -> None:
+    told = overview_as_json(scene_overview(find_scene("near/0")))
+    rows = table("docs/scenes.md", "A scene to look at")
+    assert [row[0] for row in rows] == list(told)
+    assert all(f"`{key}`" in rows[-1][3] for key in told["corridor"])
 
 
 def test_what_is_said_of_an_arm_is_explained() -> None:
@@ -190,7 +224,11 @@ def test_options_of_motion_are_explained() -> None:
 
 def check_options(rows: list[list[str]], kind: Kind, name: str) -> None:
     """Key, default and unit of every option, in order."""
-    options = describe(kind, name).options
+    check_rows(rows, describe(kind, name).options)
+
+
+def check_rows(rows: list[list[str]], options: Sequence[OptionRow]) -> None:
+    """Key, default and unit of some options, in order."""
     assert [row[:2] for row in rows] == [[option.key, str(option.default)] for option in options]
     for (key, _, unit, _), option in zip(rows, options, strict=True):
         assert f"({unit})" in option.description if unit else "(" not in option.description, key
@@ -263,7 +301,9 @@ def test_the_measured_table_is_about_the_suites_and_planners_there_are() -> None
     sizes = {suite: len(create(Kind.SCENES, suite).names()) for suite in ("vieira", "papallas")}
     sizes["all"] = sum(sizes.values())
     rows = table("README.md", "Measured")
-    assert [tuple(row[:3]) for row in rows] == [(p, s, str(n)) for p in PLANNERS for s, n in sizes.items()]
+    measured = list(dict.fromkeys(row[0] for row in rows))
+    assert set(measured) <= set(PLANNERS)
+    assert [tuple(row[:3]) for row in rows] == [(p, s, str(n)) for p in measured for s, n in sizes.items()]
     for _, _, scenes, cleared, reached, retrieved, clean, *_ in rows:
         assert int(scenes) >= int(cleared) >= int(reached) >= int(retrieved) >= int(clean)
 

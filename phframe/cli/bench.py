@@ -44,7 +44,7 @@ Suites = Annotated[
         metavar="SUITE...",
         help="Suites such as vieira ('phframe scenes' lists them; of a generator, its examples), problems such as "
         "papallas/s01, 'vieira/simple-*' or random/0..99, or scene files.",
-        autocompletion=completion.suites,
+        autocompletion=completion.suites_and_scenes,
     ),
 ]
 Planners = Annotated[

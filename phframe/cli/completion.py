@@ -25,9 +25,9 @@ def scenes(incomplete: str) -> Offer:
     return _quietly(_scene_names, incomplete)
 
 
-def suites(incomplete: str) -> Offer:
-    """Suites, and the scenes of all of them."""
-    return [*_quietly(lambda: _registered("scenes"), incomplete), *scenes(incomplete)]
+def suites_and_scenes(incomplete: str) -> Offer:
+    """The suites of scenes, their scenes, and scene files."""
+    return [*names("scenes")(incomplete), *scenes(incomplete)]
 
 
 def benches(incomplete: str) -> Offer:

@@ -13,6 +13,8 @@ from phframe.cli.main import app
 
 _OWN_ONLY = ("--help", "--install-completion", "--show-completion")
 """Options of every command line, which need no row."""
+BAR = r"\|"
+"""A bar that divides no cells."""
 
 
 def document() -> str:
@@ -49,7 +51,8 @@ def _rows(command: Any) -> Iterator[str]:
     if shown:
         yield "| option | what it is | default |\n| --- | --- | --- |"
     for each in shown:
-        yield f"| {_spelling(each)} | {each.help} | {_default(each)} |"
+        cells = (_spelling(each), each.help or "", _default(each))
+        yield f"| {' | '.join(cell.replace('|', BAR) for cell in cells)} |"
 
 
 def _spelling(parameter: Any) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -12,6 +12,8 @@ from phframe.cli.listing_data import BrokenItem, Item, Listing
 from phframe.cli.option_list import Description
 
 HOME = "phframe"
+_MOST_SCENES, _FEW_SCENES = 12, 4
+"""Of a suite, named in the listing: all, if there are no more than that; else the first few, and the last."""
 
 
 def picture(what: Listing | Description) -> RenderableType:
@@ -20,10 +22,10 @@ def picture(what: Listing | Description) -> RenderableType:
 
 
 def _listing(what: Listing) -> RenderableType:
-    table = _table(what.title, "what it is")
+    rows = table(what.title, "what it is")
     for item in what.items:
-        table.add_row(item.name, _summary(item))
-    return Group(table, *_broken(what.broken))
+        rows.add_row(Text(item.name), _summary(item))
+    return Group(rows, *_broken(what.broken))
 
 
 def _summary(item: Item) -> Text:
@@ -33,8 +35,13 @@ def _summary(item: Item) -> Text:
     if item.needs:
         text.append(f"\nnot installed: it needs {item.needs}. {item.remedy}", "yellow")
     if item.scenes:
-        text.append(f"\n{len(item.scenes)} listed: {', '.join(item.scenes)}", "cyan")
+        text.append(f"\n{len(item.scenes)} listed: {', '.join(_few(item.scenes))}", "cyan")
     return text
+
+
+def _few(names: Sequence[str]) -> Sequence[str]:
+    """The first names and the last; the description of the suite has them all."""
+    return names if len(names) <= _MOST_SCENES else [*names[:_FEW_SCENES], "...", names[-1]]
 
 
 def _broken(broken: Iterable[BrokenItem]) -> list[Text]:
@@ -45,17 +52,19 @@ def _broken(broken: Iterable[BrokenItem]) -> list[Text]:
 
 def _description(what: Description) -> RenderableType:
     heading = Text.assemble((f"{what.kind} {what.name}", "bold"), f"\n{what.text}\n")
+    scenes = [Text(f"\n{len(what.scenes)} listed: {', '.join(what.scenes)}", "cyan")] if what.scenes else []
     if not what.options:
-        return Group(heading, Text("It has no options."))
+        return Group(heading, Text("It has no options."), *scenes)
     prefix = "" if what.kind == "planner" else f"{what.kind}."
-    table = _table("--option", "values", "default", "what it is")
+    rows = table("--option", "values", "default", "what it is")
     for row in what.options:
-        table.add_row(f"{prefix}{row.key}", row.values, Text(str(row.default)), Text(row.description))
-    return Group(heading, table)
+        rows.add_row(f"{prefix}{row.key}", row.values, Text(str(row.default)), Text(row.description))
+    return Group(heading, rows, *scenes)
 
 
-def _table(*columns: str) -> Table:
-    table = Table(box=None, padding=(0, 2, 0, 0), header_style="dim")
+def table(*columns: str) -> Table:
+    """A table without lines, its first column in bold."""
+    made = Table(box=None, padding=(0, 2, 0, 0), header_style="dim")
     for number, column in enumerate(columns):
-        table.add_column(column, no_wrap=number == 0, overflow="fold", style="bold" if number == 0 else "")
-    return table
+        made.add_column(column, no_wrap=number == 0, overflow="fold", style="bold" if number == 0 else "")
+    return made

@@ -1,4 +1,4 @@
-"""``phframe scenes | planners | backends | arms | goals | topology``: what there is to choose from."""
+"""``phframe planners | backends | arms | goals | topology``: what there is to choose from."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import typer
 from phframe.cli import completion
 
 _LISTINGS = {
-    "scenes": ("scenes", "suites of scenes, and their scenes", "scenes random"),
     "planners": ("planner", "planners", "planners phia"),
     "backends": ("backend", "physics backends", "backends --json"),
     "arms": ("arm", "robot arms", "arms planar"),
@@ -40,7 +39,7 @@ def _command(title: str, kind: str) -> Callable[..., None]:
     def command(
         name: Annotated[str | None, name_argument] = None, as_json: Annotated[bool, json_option] = False
     ) -> None:
-        _print(title, kind, name, as_json=as_json)
+        print_listing(title, kind, name, as_json=as_json)
 
     # The annotations are texts, which typer could not look up in this function.
     command.__annotations__ = {
@@ -51,7 +50,18 @@ def _command(title: str, kind: str) -> Callable[..., None]:
     return command
 
 
-def _print(title: str, kind: str, name: str | None, *, as_json: bool) -> None:
+def print_listing(title: str, kind: str, name: str | None, *, as_json: bool) -> None:
+    """Print all that is registered of one kind, or describe one.
+
+    Args:
+        title: The command that lists it.
+        kind: What it is.
+        name: Of the one to describe; None: all are listed.
+        as_json: Whether to print JSON.
+
+    Raises:
+        PhframeError: If there is no such thing, or it does not load.
+    """
     from phframe.cli.listing_data import listing
     from phframe.cli.option_list import describe
     from phframe.registry import Kind

@@ -10,7 +10,7 @@ from typing import Any
 
 from phframe.cli.listing_data import FORMAT
 from phframe.core import Options
-from phframe.registry import Kind, load
+from phframe.registry import Kind, create, load
 
 _ATTRIBUTE = re.compile(r"^    (\w+): (.*(?:\n {8,}.*)*)", re.MULTILINE)
 _BOUNDS = {"exclusiveMinimum": "> ", "minimum": ">= ", "exclusiveMaximum": "< ", "maximum": "<= "}
@@ -35,16 +35,27 @@ class OptionRow:
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """One registered thing in detail."""
+    """One registered thing in detail.
+
+    Attributes:
+        kind: What it is.
+        name: What it is asked for by.
+        text: What it does.
+        options: Its options.
+        scenes: Of a suite: its scenes, as ``suite/name``.
+    """
 
     kind: str
     name: str
     text: str
     options: tuple[OptionRow, ...]
+    scenes: tuple[str, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
-        """One object: ``format``, what it is, and its ``options``."""
-        return {"format": FORMAT, **asdict(self), "options": [asdict(option) for option in self.options]}
+        """One object: ``format``, what it is, its ``options``, and of a suite its ``scenes``."""
+        values = {**asdict(self), "options": [asdict(option) for option in self.options]}
+        scenes = values.pop("scenes")
+        return {"format": FORMAT, **values, **({"scenes": list(scenes)} if self.kind == Kind.SCENES else {})}
 
 
 def describe(kind: Kind, spec: str) -> Description:
@@ -59,7 +70,8 @@ def describe(kind: Kind, spec: str) -> Description:
     """
     loaded = load(kind, spec)
     rows = _rows(getattr(loaded, "options_type", Options))
-    return Description(kind.value, spec, _plain(inspect.cleandoc(loaded.__doc__ or "").split("\n\n")[0]), rows)
+    scenes = tuple(f"{spec}/{name}" for name in create(kind, spec).names()) if kind is Kind.SCENES else ()
+    return Description(kind.value, spec, _plain(inspect.cleandoc(loaded.__doc__ or "").split("\n\n")[0]), rows, scenes)
 
 
 def _rows(options_type: type[Options]) -> tuple[OptionRow, ...]:

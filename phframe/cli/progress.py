@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from threading import Timer
 
 from phframe.cli.console import error_console
@@ -23,14 +24,26 @@ class Progress(Observer):
     def __init__(self, after: float = AFTER) -> None:
         self._console = error_console()
         self._status = self._console.status("Loading the libraries")
-        self._timer = Timer(after, self._status.start)
-        self._timer.daemon = True
+        self._after, self._wanted = after, False
+        self._timer = self._new_timer()
         self._to_do, self._plans, self._done = 0, 0, 0
 
     def start(self) -> None:
         """Begin to count the seconds."""
-        if self._console.is_terminal:
+        self._wanted = self._console.is_terminal
+        if self._wanted:
             self._timer.start()
+
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """Leave the screen to somebody else; come back a while after."""
+        self._take_away()
+        try:
+            yield
+        finally:
+            self._timer = self._new_timer()
+            if self._wanted:
+                self._timer.start()
 
     def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """The first plan is being made."""
@@ -60,6 +73,15 @@ class Progress(Observer):
 
     def close(self) -> None:
         """Take the line away."""
+        self._wanted = False
+        self._take_away()
+
+    def _new_timer(self) -> Timer:
+        timer = Timer(self._after, self._status.start)
+        timer.daemon = True
+        return timer
+
+    def _take_away(self) -> None:
         self._timer.cancel()
         if self._timer.is_alive():
             self._timer.join()

@@ -9,7 +9,7 @@ import numpy as np
 
 from phframe.core import Scene
 from phframe.motion.reachability import YAWS, Reachability
-from phframe.urdf.solids import rotation
+from phframe.recorders.scene_plot import draw_shelf, outline_in_shelf
 
 SIZE, DOTS = (6.4, 6.4), 120
 """Of the picture: inches, and dots per inch."""
@@ -34,11 +34,8 @@ def reach_picture(reach: Reachability, scene: Scene, title: str) -> bytes:
     axes = figure.add_subplot(xlabel="depth x (m), mouth on the left", ylabel="y (m), south wall below")
     axes.set_title(f"{title}: {reach.fraction:.1%} of the shelf within reach", fontsize=11)
     _draw_cells(axes, reach)
-    _draw_shelf(axes, scene)
+    draw_shelf(scene.shelf, axes)
     _draw_objects(axes, scene)
-    axes.set_aspect("equal")
-    axes.set_xlim(-0.06, scene.shelf.depth + 0.03)
-    axes.set_ylim(-0.03, scene.shelf.width + 0.03)
     figure.legend(handles=_legend(reach), loc="outside lower center", ncols=3, frameon=False, fontsize=9)
     content = io.BytesIO()
     figure.savefig(content, dpi=DOTS, format="png")
@@ -74,22 +71,14 @@ def _edges(centers: Any) -> Any:
     return np.concatenate([centers - step / 2.0, centers[-1:] + step / 2.0])
 
 
-def _draw_shelf(axes: Any, scene: Scene) -> None:
-    depth, width = scene.shelf.depth, scene.shelf.width
-    axes.plot([0.0, depth, depth, 0.0], [0.0, 0.0, width, width], color="#5a4632", linewidth=4.0, zorder=4)
-    axes.plot([0.0, 0.0], [0.0, width], color="#5a4632", linewidth=1.0, linestyle=(0, (5, 4)), zorder=4)
-    axes.annotate(
-        "", xy=(-0.005, width / 2.0), xytext=(-0.05, width / 2.0), arrowprops={"arrowstyle": "-|>", "color": "#5a4632"}
-    )
-
-
 def _draw_objects(axes: Any, scene: Scene) -> None:
     from matplotlib.patches import Polygon
 
     for item in scene.objects:
         colour = TARGET if item.id == scene.target else OBJECT
-        outline = item.shape.outline @ rotation((0.0, 0.0, float(item.yaw)))[:2, :2].T + item.position
-        axes.add_patch(Polygon(outline, facecolor=(1.0, 1.0, 1.0, 0.45), edgecolor=colour, lw=2, zorder=5))
+        axes.add_patch(
+            Polygon(outline_in_shelf(item), facecolor=(1.0, 1.0, 1.0, 0.45), edgecolor=colour, lw=2, zorder=5)
+        )
     x, y = scene.objects[scene.target_index].position
     axes.plot(x, y, marker="x", color=TARGET, zorder=6)
 

@@ -15,7 +15,7 @@ from phframe.cli.run import RunOutput, carry_out, show_recording
 from phframe.cli.run_directory import RunDirectory
 from phframe.core import Episode
 from phframe.core.run_spec import PARTS
-from phframe.runtime.replay import differing_versions, first_difference, spec_of
+from phframe.runtime.replay import StoredAdvice, differing_versions, first_difference, spec_of
 
 FORMAT = 1
 """Of the JSON object."""
@@ -42,7 +42,8 @@ def run(episode: Path, parts: Mapping[str, str | None], out: Path | None, *, vie
     kept = out is not None or view
     report = RunOutput(out, record=True if view else None if kept else False, view=view)
     directory = RunDirectory(out, keep=kept)
-    carried = carry_out(spec, report, directory)
+    same_planner = spec.planner == before.spec.planner
+    carried = carry_out(spec, report, directory, StoredAdvice(before) if same_planner else None)
     if carried is None:
         return ExitCode.INTERRUPTED
     same_parts = all(getattr(spec, part) == getattr(before.spec, part) for part in PARTS)

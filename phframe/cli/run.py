@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from phframe.cli.advice import terminal_advisor
 from phframe.cli.console import emit, note, show
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.interrupt import dependable_interrupts
@@ -16,7 +17,7 @@ from phframe.cli.partial import PartialEpisode
 from phframe.cli.progress import Progress
 from phframe.cli.recording import RECORDING, RunFiles, VideoFile, recorder_type
 from phframe.cli.run_directory import RUNS, RunDirectory
-from phframe.core import Episode, RunSpec
+from phframe.core import Advisor, Episode, RunSpec
 from phframe.recorders.view import open_viewer, require_viewer
 from phframe.runtime.observer import Observer
 
@@ -69,8 +70,16 @@ def run(spec: RunSpec, report: RunOutput) -> int:
     return ExitCode.SUCCESS if episode.status.is_success else ExitCode.OTHER_OUTCOME
 
 
-def carry_out(spec: RunSpec, report: RunOutput, directory: RunDirectory) -> tuple[Episode, dict[str, Any]] | None:
+def carry_out(
+    spec: RunSpec, report: RunOutput, directory: RunDirectory, advisor: Advisor | None = None
+) -> tuple[Episode, dict[str, Any]] | None:
     """Carry out a run and leave the files that are wanted.
+
+    Args:
+        spec: The run.
+        report: What it is to leave and to print.
+        directory: Where.
+        advisor: Whom the planner may ask; None: whoever is at the terminal.
 
     Returns:
         The episode and its summary; None: it was interrupted, and that has been said.
@@ -85,7 +94,8 @@ def carry_out(spec: RunSpec, report: RunOutput, directory: RunDirectory) -> tupl
     videos = () if report.video is None else (VideoFile(report.video, progress.through),)
     try:
         with dependable_interrupts():
-            episode = _watched(spec, (partial, files, *videos), progress, quiet=report.quiet)
+            asked = advisor or terminal_advisor(progress.aside)
+            episode = _watched(spec, (partial, files, *videos), progress, asked, quiet=report.quiet)
             return episode, _write(episode, directory, files.recording)
     except KeyboardInterrupt:
         _tell_interrupted(partial, directory)
@@ -100,7 +110,9 @@ def show_recording(report: RunOutput, directory: RunDirectory) -> None:
         open_viewer(directory.path / RECORDING)
 
 
-def _watched(spec: RunSpec, observers: Sequence[Observer], progress: Progress, *, quiet: bool) -> Episode:
+def _watched(
+    spec: RunSpec, observers: Sequence[Observer], progress: Progress, advisor: Advisor, *, quiet: bool
+) -> Episode:
     with ExitStack() as stack:
         for observer in (*observers, progress):
             stack.callback(observer.close)
@@ -109,7 +121,7 @@ def _watched(spec: RunSpec, observers: Sequence[Observer], progress: Progress, *
         from phframe.runtime.run import run  # the libraries take a second: progress tells of it
 
         stack.pop_all()  # it closes them
-        return run(spec, (*observers, progress))
+        return run(spec, (*observers, progress), advisor)
 
 
 def _write(episode: Episode, directory: RunDirectory, recording: Path | None) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """The language of phframe: data types, the abstract interfaces, Task and the errors. Depends on nothing else of ours."""
 
 from phframe.core.action import Action, ActionKind
+from phframe.core.advisor import NOBODY, Advisor, Hint, Question
 from phframe.core.arm import ArmModel, ArmShape, Fingers, Joint, Outline
 from phframe.core.condition import condition_of
 from phframe.core.decision import Decision
@@ -8,6 +9,7 @@ from phframe.core.episode import Episode, Step
 from phframe.core.errors import (
     ArmError,
     BudgetExceededError,
+    DocumentError,
     IncompatibleError,
     InputError,
     NotInstalledError,
@@ -51,9 +53,11 @@ from phframe.core.value import FloatArray, Floats, IntArray, Ints, Value
 __all__ = [
     "FORCE_WINDOW",
     "MOUTH_CLEARANCE",
+    "NOBODY",
     "ROOT",
     "Action",
     "ActionKind",
+    "Advisor",
     "ArmError",
     "ArmModel",
     "ArmShape",
@@ -69,6 +73,7 @@ __all__ = [
     "Cost",
     "Cylinder",
     "Decision",
+    "DocumentError",
     "Episode",
     "ExploredTree",
     "Fingers",
@@ -77,6 +82,7 @@ __all__ = [
     "Goal",
     "GripperPath",
     "GripperTrajectory",
+    "Hint",
     "IncompatibleError",
     "Infeasible",
     "InputError",
@@ -100,6 +106,7 @@ __all__ = [
     "Plan",
     "Planner",
     "PluginError",
+    "Question",
     "Rejection",
     "RunSpec",
     "Scene",

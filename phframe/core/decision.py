@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, fields
 from functools import cache
 from typing import Annotated, Any, ClassVar
 
-from pydantic import PlainSerializer, PlainValidator, TypeAdapter
+from pydantic import PlainSerializer, PlainValidator, TypeAdapter, ValidationError
 
+from phframe.core.advisor import Hint
 from phframe.core.value import Value
 
 _KINDS: dict[str, type[Decision]] = {}
@@ -30,6 +31,14 @@ class Decision(Value):
     why: str = ""
     deviations: tuple[str, ...] = ()
 
+    @property
+    def hint(self) -> Hint | None:
+        """What was answered when the planner asked what to do, where this is why; repeating the run needs it.
+
+        A type of decision that has one holds it in a field of this name, so that it is found in files whatever the type.
+        """
+        return None
+
     def __init_subclass__(cls) -> None:
         super(Decision, cls).__init_subclass__()  # by name: slots make the class anew
         _KINDS[cls.kind] = cls
@@ -46,6 +55,14 @@ class UnknownDecision(Decision):
     kind: ClassVar[str] = "unknown"
 
     written: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def hint(self) -> Hint | None:
+        """The hint in what is written, if there is one."""
+        try:
+            return TypeAdapter(Hint | None).validate_python(self.written.get("hint"))
+        except ValidationError:
+            return None
 
 
 _KINDS[Decision.kind] = Decision

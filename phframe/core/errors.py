@@ -18,12 +18,12 @@ class InputError(PhframeError):
     """Something the user gave cannot be used: a file, an option, a name, a value."""
 
 
-class SceneError(InputError):
-    """A scene that cannot be: bad fields, objects overlapping or outside the shelf, no target.
+class DocumentError(InputError):
+    """A document that cannot be read, or does not say what it must.
 
     Args:
         problems: One sentence per thing that is wrong.
-        source: The file or name of the scene, if known.
+        source: The file or name of what holds it, if known.
     """
 
     def __init__(self, problems: str | Sequence[str], source: str | None = None) -> None:
@@ -31,8 +31,12 @@ class SceneError(InputError):
         self.source = source
         super().__init__((f"{source}: " if source else "") + "; ".join(self.problems))
 
-    def __reduce__(self) -> tuple[type[SceneError], tuple[tuple[str, ...], str | None]]:
+    def __reduce__(self) -> tuple[type[DocumentError], tuple[tuple[str, ...], str | None]]:
         return type(self), (self.problems, self.source)
+
+
+class SceneError(DocumentError):
+    """A scene that cannot be: bad fields, objects overlapping or outside the shelf, no target."""
 
 
 class OptionError(InputError):
@@ -41,6 +45,11 @@ class OptionError(InputError):
 
 class ArmError(InputError):
     """Joint values, a pose or an opening that the arm cannot have."""
+
+
+_MOST_NAMES = 40
+"""Shown in one message; of more the first few are, and the rest are counted."""
+_FEW_NAMES = 10
 
 
 class UnknownNameError(InputError):
@@ -62,8 +71,13 @@ class UnknownNameError(InputError):
         parts = [f"no {self.kind} named {self.name!r}."]
         if close:
             parts.append(f"Did you mean {close[0]!r}?")
-        parts.append(f"There is: {', '.join(self.known)}." if self.known else f"There is no {self.kind} at all.")
+        parts.append(f"There is: {self._known()}." if self.known else f"There is no {self.kind} at all.")
         return " ".join([*parts, self.hint]).strip()
+
+    def _known(self) -> str:
+        if len(self.known) <= _MOST_NAMES:
+            return ", ".join(self.known)
+        return f"{', '.join(self.known[:_FEW_NAMES])} and {len(self.known) - _FEW_NAMES} more"
 
     def __reduce__(self) -> tuple[type[UnknownNameError], tuple[str, str, tuple[str, ...], str]]:
         return type(self), (self.kind, self.name, self.known, self.hint)

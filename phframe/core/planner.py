@@ -9,6 +9,7 @@ from typing import ClassVar, Generic, TypeVar, final
 from phframe.core.errors import BudgetExceededError, PluginError, SimulationDivergedError
 from phframe.core.options import Options
 from phframe.core.plan import Plan
+from phframe.core.scene import Scene
 from phframe.core.status import Status
 from phframe.core.task import Task
 
@@ -47,6 +48,13 @@ class Planner(ABC, Generic[OptionsT]):
         if not isinstance(plan, Plan):
             raise PluginError(f"planner {type(self).__name__} returned {plan!r} instead of a Plan")
         return replace(plan, cost=task.cost)
+
+    def check(self, scene: Scene) -> None:
+        """Refuse, before anything is simulated or written, a scene that the options do not fit. By default they do.
+
+        Raises:
+            InputError: If they name something that is not in the scene.
+        """
 
     @abstractmethod
     def search(self, task: Task) -> Plan:

@@ -63,6 +63,11 @@ class Scene:
         """Bounding radii ``(n,)`` of all objects (m)."""
         return np.array([o.radius for o in self.objects])
 
+    @property
+    def coverage(self) -> float:
+        """The part of the board that the objects cover: the area of their outlines over the board's, 0 to 1."""
+        return sum(o.shape.area for o in self.objects) / (self.shelf.depth * self.shelf.width)
+
     def index(self, object_id: str) -> int:
         """Row of an object in every array of poses.
 

@@ -53,6 +53,12 @@ class SearchTree:
         """Say why a node is looked at no further."""
         self._nodes[node] = replace(self._nodes[node], closed=why)
 
+    def close_others(self, node: int, why: str) -> None:
+        """Say why the search went on from no node that is still open and not on the path to one of them."""
+        for row in set(range(len(self._nodes))) - set(path_to(self._nodes, node)):
+            if not self._nodes[row].closed:
+                self.close(row, why)
+
     def reopen(self, node: int, decision: Decision) -> None:
         """Go on from a node after all, for a reason that its decision now tells."""
         self._nodes[node] = replace(self._nodes[node], closed="", decision=decision)

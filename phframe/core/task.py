@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from phframe.core.action import Action
+from phframe.core.advisor import NOBODY, Advisor, Hint, Question
 from phframe.core.arm import ArmShape
 from phframe.core.errors import BudgetExceededError, InputError
 from phframe.core.explored_tree import ExploredTree
@@ -84,12 +85,13 @@ class Task:
         reach: Reach | None = None,
         steered: SupportsPropagation[Any] | None = None,
         begin_steering: Begin | None = None,
+        advisor: Advisor = NOBODY,
     ) -> None:
         self.scene, self.start, self.goal, self.arm = scene, start, goal, arm
         self.rejected, self.rng, self.budget = rejected, rng, budget
         self._apply, self._apply_many, self._topology = apply, apply_many, topology
         self._reach, self._steered, self._begin_steering = reach, steered, begin_steering
-        self._began = time.perf_counter()
+        self._advisor, self._began = advisor, time.perf_counter()
         self._cost = Cost()
         self._offered: Plan | None = None
         self._first_solution_time: float | None = None
@@ -147,6 +149,14 @@ class Task:
             return None
         return Steering(self._steered, self._begin_steering, self._simulated)
 
+    def ask(self, question: Question) -> Hint | None:
+        """What whoever can be asked says is to be moved next; None: there is no hint. The clock stands still meanwhile."""
+        began = time.perf_counter()
+        try:
+            return self._advisor.advise(question)
+        finally:
+            self._began += time.perf_counter() - began
+
     def diagram(self, points: FloatArray) -> PersistenceDiagram:
         """The persistence diagram of points ``(n, 2)`` (m)."""
         began = time.perf_counter()
@@ -199,12 +209,18 @@ class Task:
         """What has been spent so far."""
         return replace(self._cost, total=self.elapsed)
 
+    @property
+    def simulations_left(self) -> int | None:
+        """How many actions may still be simulated; None: any number."""
+        limit = self.budget.simulations
+        return None if limit is None else limit - self._cost.simulated_actions
+
     def _spend(self, simulations: int) -> None:
-        limit, budget = self.budget.simulations, self.budget
+        budget, left = self.budget, self.simulations_left
         if self.elapsed > budget.seconds:
             raise BudgetExceededError(f"the time limit of {budget.seconds:g} s is used up")
-        if limit is not None and self._cost.simulated_actions + simulations > limit:
-            raise BudgetExceededError(f"the budget of {limit} simulated actions is used up")
+        if left is not None and simulations > left:
+            raise BudgetExceededError(f"the budget of {budget.simulations} simulated actions is used up")
 
     def _simulated(self, simulate: Callable[[], ResultT], simulations: int = 1) -> ResultT:
         """Simulate within the budget, and count it."""

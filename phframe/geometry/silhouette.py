@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from phframe.core import FloatArray, Outline, rotation_matrix
+from phframe.geometry.convex_hull import convex_hull
+from phframe.geometry.polygon import signed_distance
 
 
 class Silhouette:
@@ -18,9 +20,9 @@ class Silhouette:
     """
 
     def __init__(self, outlines: Sequence[Outline], tilt: float) -> None:
-        polygons = [outline.vertices @ rotation_matrix(tilt).T for outline in outlines]
-        self._starts = np.concatenate(polygons)
-        self._ends = np.concatenate([np.vstack([polygon[1:], polygon[:1]]) for polygon in polygons])
+        self._polygons = [outline.vertices @ rotation_matrix(tilt).T for outline in outlines]
+        self._starts = np.concatenate(self._polygons)
+        self._ends = np.concatenate([np.vstack([polygon[1:], polygon[:1]]) for polygon in self._polygons])
         self.front = float(self._starts[:, 0].max())
 
     def side(self, depths: FloatArray, direction: int) -> FloatArray:
@@ -36,6 +38,20 @@ class Silhouette:
         y0, y1 = self._starts[:, 1], self._ends[:, 1]
         reach = np.where(x0 == x1, np.maximum(direction * y0, direction * y1), direction * (y0 + fraction * (y1 - y0)))
         return np.asarray(np.where(crosses, reach, -np.inf).max(axis=1))
+
+    def meets(self, points: FloatArray, radius: float, start: FloatArray, end: FloatArray) -> bool:
+        """Whether it comes nearer than a radius (m) to any of the points ``(k, 2)`` as its fingertip goes straight on.
+
+        A convex part sweeps over the convex hull of where it is first and last.
+
+        Args:
+            points: In the frame that the arm is tilted against (m).
+            radius: Of the round objects there (m).
+            start: Where the fingertip is at first ``(2,)`` (m).
+            end: Where it is in the end ``(2,)`` (m).
+        """
+        swept = (convex_hull(np.concatenate([part + start, part + end])) for part in self._polygons)
+        return any(signed_distance(region, point) < radius for region in swept for point in points)
 
     def widest_side(self, nearest: float, farthest: float, direction: int) -> float:
         """The most it reaches to one side between two depths (m)."""

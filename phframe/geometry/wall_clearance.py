@@ -40,7 +40,7 @@ class WallClearance:
         """How far the fingertip can move (m, at most ``distance``) from ``start`` ``(2,)`` along a unit vector ``(2,)``."""
         along = self._normals @ direction
         room = self._offsets - self._normals @ start
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             crossing = room / along
         enter = np.where(along < 0.0, crossing, np.where((along == 0.0) & (room <= 0.0), np.inf, -np.inf)).max(axis=1)
         leave = np.where(along > 0.0, crossing, np.inf).min(axis=1)

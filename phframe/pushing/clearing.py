@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from phframe.core import ROOT, FloatArray, Plan, Task
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.options import PushingOptions
+from phframe.pushing.options import ClearingOptions
 from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.push_search import Proposal, PushSearch, is_unchanged
 
@@ -23,7 +23,7 @@ class Clearing:
         choose_radius: What tells one planner of this family from another.
     """
 
-    def __init__(self, task: Task, options: PushingOptions, choose_radius: ChooseRadius) -> None:
+    def __init__(self, task: Task, options: ClearingOptions, choose_radius: ChooseRadius) -> None:
         self._options, self._choose_radius = options, choose_radius
         self._search = PushSearch(task, options)
         self._pushing, self._tree = self._search.pushing, self._search.tree
@@ -33,6 +33,8 @@ class Clearing:
         """Push until the corridor is empty, then grasp."""
         node = ROOT
         while isinstance(step := self._search.next_step(node), PushProblem):
+            if self._options.grasp_first and (plan := self._search.grasp_early(node, step)) is not None:
+                return plan
             pushed = self._push(node, step)
             if isinstance(pushed, str):
                 blocked = f"grasp blocked by {', '.join(step.blockers)}: " if step.blockers else ""

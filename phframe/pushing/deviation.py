@@ -10,6 +10,8 @@ class Deviation(StrEnum):
 
     FALLBACK_RADIUS = "fallback radius"
     """No radius is usable, so the threshold h itself is taken."""
+    ANGLED_EARLY = "angled corridor near a wall"
+    """The target is farther than w from the wall, but what is in the straight corridor has no room beside it there."""
     SWEEP_CLAMPED = "sweep clamped to the wall"
     """The arm's true outline would meet a wall before its leading side reaches the corridor's edge."""
     LANE_CLAMPED = "lane clamped to the wall"
@@ -30,5 +32,7 @@ class Deviation(StrEnum):
     """The gripper deviates from the corridor's axis, past neighbours or a wall."""
     GRASP_TIGHT = "grasp with little room"
     """The fingers open less wide, or go less far past the target, than they would with more room."""
+    GRASP_EARLY = "grasp before the corridor is empty"
+    """Obstacles are still in the corridor, but none blocks the grasp; only with ``grasp_first``."""
     GRASP_BLOCKED = "grasp blocked"
     """The corridor is empty, but what stands beside the target keeps the fingers out; it joined the members."""

@@ -22,6 +22,8 @@ class PushingOptions(Options):
         half_width: Of the corridor, w (m); ``auto``: half the arm's link, the largest obstacle's radius and 4 mm.
         insertion_width: Width of what must fit between two groups (m); 0.018 gives the paper's threshold of 0.08.
         margin: By how much a radius must be persistent, nu (m).
+        sweeps: ``paper``: the one sweep of Algorithm 3, as it is but for the walls; ``fitted``: of several that fit, the
+            best one first.
         max_actions: Pushes after which to give up.
         patience: Pushes in a row that make the obstacles in the corridor no fewer, after which to give up.
         insert_speed: Going in and out (m/s).
@@ -39,6 +41,7 @@ class PushingOptions(Options):
     half_width: Annotated[float, Field(gt=0.0, le=1.0)] | Literal["auto"] = 0.12
     insertion_width: Annotated[float, Field(ge=0.0, le=1.0)] = 0.018
     margin: Annotated[float, Field(ge=0.0, le=1.0)] = 0.015
+    sweeps: Literal["paper", "fitted"] = "fitted"
     max_actions: Annotated[int, Field(ge=1, le=1000)] = 30
     patience: Annotated[int, Field(ge=1, le=1000)] = 5
     insert_speed: Speed = 0.25
@@ -51,3 +54,13 @@ class PushingOptions(Options):
     neighbour_clearance: Clearance = 0.002
     max_grasp_turn: Annotated[float, Field(ge=0.0, le=math.pi / 4.0)] = 0.2618
     withdrawal: Annotated[float, Field(gt=0.0, le=1.0)] = 0.10
+
+
+class ClearingOptions(PushingOptions):
+    """Options of planners that push until the corridor is empty.
+
+    Attributes:
+        grasp_first: Whether the grasp is tried before every push, while the corridor still holds obstacles.
+    """
+
+    grasp_first: bool = False

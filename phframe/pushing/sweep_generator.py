@@ -49,7 +49,14 @@ class SweepGenerator:
         self._component = Component(members, self.rectangle, radius)
 
     def pushes(self) -> Iterator[Push]:
-        """The sweeps that fit, best first.
+        """The sweeps to be tried, best first: the paper's one, as far as walls and target allow it, or all that fit."""
+        if self._options.sweeps == "fitted":
+            yield from self._fitted()
+        elif push := self._sweep(self._direction(), 0.0).paper():
+            yield push
+
+    def _fitted(self) -> Iterator[Push]:
+        """The sweeps that fit.
 
         In each direction, the paper's before the other, the one that clears with the least tilt and rams nothing on its
         way in; where there is none, one that clears all the same; then those that fit at the least tilt but do not clear.
@@ -77,18 +84,20 @@ class SweepGenerator:
             if math.cos(self._corridor.angle + tilt) < LEAST_AHEAD:
                 continue
             settled = (*deviations, Deviation.TILTED) if tilt else deviations
-            sweep = TiltedSweep(
-                self._corridor,
-                self._component,
-                self._view,
-                self._target_radius,
-                direction=direction,
-                tilt=tilt,
-                options=self._options,
-            )
-            push = sweep.push(settled)
+            push = self._sweep(direction, tilt).push(settled)
             if push is not None:
                 yield push
+
+    def _sweep(self, direction: Direction, tilt: float) -> TiltedSweep:
+        return TiltedSweep(
+            self._corridor,
+            self._component,
+            self._view,
+            self._target_radius,
+            direction=direction,
+            tilt=tilt,
+            options=self._options,
+        )
 
     def _has_room(self, direction: Direction) -> bool:
         """Whether there is room for the members outside the corridor, at any tilt: if not, nothing clears."""

@@ -97,8 +97,16 @@ class TiltedSweep:
         self._walls = view.walls(corridor.angle + tilt)
         self._boxes = view.boxes
 
+    def paper(self) -> Push | None:
+        """The paper's sweep, whatever it meets: to the rectangle's far edge or as near to the target as is allowed."""
+        far = float(self._component.rectangle.upper[0])
+        push = self._at(far, ())
+        if push is None or (allowed := self._depth_allowed(push.sweep)) >= far:
+            return push
+        return self._at(allowed, ())
+
     def push(self, deviations: Deviations) -> Push | None:
-        """The sweep to the rectangle's far edge, or as far as the target allows; None where nothing would be touched.
+        """The sweep to the rectangle's far edge, or as far as the target allows; None where no member would be met.
 
         Where the target does not let it in far enough to touch anything, the lane makes way instead of the depth.
         """
@@ -111,7 +119,7 @@ class TiltedSweep:
                 push = self._at(far, (*deviations, Deviation.LANE_SHIFTED), past_target=True)
                 if push is not None and self._depth_allowed(push.sweep) < far:
                     return None
-        return push if push is not None and self._touches(push.sweep) else None
+        return push if push is not None and self._touches(push.sweep) and self._meets(push.sweep) else None
 
     def _at(self, depth: float, deviations: Deviations, *, past_target: bool = False) -> Push | None:
         """The sweep at a depth, clamped to the walls; with ``past_target`` in a lane that passes the target by."""
@@ -164,6 +172,12 @@ class TiltedSweep:
     def _touches(self, sweep: Sweep) -> bool:
         """Whether the fingertip gets far enough past the front of the nearest member to push it sideways."""
         return bool(sweep.depth > self._component.rectangle.lower[0] - ENGAGEMENT * self._component.radius)
+
+    def _meets(self, sweep: Sweep) -> bool:
+        """Whether the arm meets a member on its way across or in: no wall keeps it short of all, nor is its lane beyond them."""
+        before, inserted, swept, _ = sweep.waypoints
+        members, radius = self._component.centers, self._component.radius - ROUNDING
+        return any(self._arm.meets(members, radius, *way) for way in ((inserted, swept), (before, inserted)))
 
     def _depth_allowed(self, sweep: Sweep) -> float:
         """How deep the fingertip may go so that nowhere between lane and end it comes too near to the target."""

@@ -1,1 +1,4 @@
-"""Observers that write down what an episode does. They read plans, steps and episodes; nothing knows of them."""
+"""Observers that write down what an episode does, and drawings of scenes.
+
+They read scenes, plans, steps and episodes; nothing of what they read knows of them.
+"""

@@ -15,9 +15,60 @@ EXTENSIONS = [
         "phia",
         "phframe.planners.phia:PHIA",
         "Pushes the closest group of obstacles, grouped by persistent homology, until the corridor is empty",
+        variants=(
+            ("sweeps=paper", "PHIA with the one sweep of the paper's Algorithm 3, and no other where that fails"),
+        ),
     ),
     _own(
-        Kind.PLANNER, "ooa", "phframe.planners.ooa:OOA", "Pushes one obstacle at a time, the closest first; no grouping"
+        Kind.PLANNER,
+        "ooa",
+        "phframe.planners.ooa:OOA",
+        "Pushes one obstacle at a time, the closest first; no grouping",
+        variants=(("sweeps=paper", "OOA with the one sweep of the paper's Algorithm 3"),),
+    ),
+    _own(
+        Kind.PLANNER,
+        "grtc-straight",
+        "phframe.planners.grtc_straight:GRTCStraight",
+        "Drives straight at the target, and pushes what that meets straight to a random free place",
+    ),
+    _own(
+        Kind.PLANNER,
+        "grtc-kinodynamic",
+        "phframe.planners.grtc_kinodynamic:GRTCKinodynamic",
+        "Steers what blocks the straight drive at the target to a free place, by OMPL's RRT or KPIECE1",
+        extra="ompl",
+    ),
+    _own(
+        Kind.PLANNER,
+        "kinodynamic-rrt",
+        "phframe.planners.kinodynamic_rrt:KinodynamicRRT",
+        "Grows a tree of states at rest by random pushes, simulated, until the target can be grasped",
+    ),
+    _own(
+        Kind.PLANNER,
+        "guided",
+        "phframe.planners.guided:Guided",
+        "Asks a person, or a file of hints, which object to push where, and pushes it there",
+    ),
+    _own(
+        Kind.PLANNER,
+        "phis",
+        "phframe.planners.phis:PHIS",
+        "Searches the pushes of the closest group at every persistent radius for the least total pushing time",
+        variants=(("sweeps=paper", "PHIS with the one sweep of the paper's Algorithm 3 for each radius"),),
+    ),
+    _own(
+        Kind.PLANNER,
+        "phim",
+        "phframe.planners.phim:PHIM",
+        "Monte-Carlo tree search over the pushes of the closest group at every persistent radius, in both directions",
+    ),
+    _own(
+        Kind.PLANNER,
+        "random-push",
+        "phframe.planners.random_push:RandomPush",
+        "Pushes a random obstacle in a random direction: the floor that every other planner must beat",
     ),
     _own(
         Kind.BACKEND,
@@ -81,6 +132,24 @@ EXTENSIONS = [
         "random",
         "phframe.scenes.generator:RandomScenes",
         "Scenes made from a seed: obstacles in front of a target deep in the shelf",
+    ),
+    _own(
+        Kind.SCENES,
+        "dense",
+        "phframe.scenes.dense:DenseScenes",
+        "Crowded scenes made from a seed: 20 to 40 objects all around a target deep in the shelf",
+    ),
+    _own(
+        Kind.SCENES,
+        "near",
+        "phframe.scenes.near:NearScenes",
+        "Scenes made from a seed: a target near a side wall, obstacles in front of it",
+    ),
+    _own(
+        Kind.SCENES,
+        "paper",
+        "phframe.scenes.paper:Paper",
+        "121 problems like those of the paper's experiment: basic, ten simple, ten of Papallas, 100 random",
     ),
     _own(
         Kind.RECORDER,

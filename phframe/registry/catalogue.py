@@ -21,7 +21,7 @@ class Entry:
 
     Attributes:
         extension: The extension.
-        distribution: The distribution it comes from, such as ``phframe-random-push``.
+        distribution: The distribution it comes from, such as ``phframe-lookahead``.
         version: Of the distribution.
         name: What it is asked for by: its own name, or ``distribution:name`` where its own leads to another or to none.
     """
@@ -111,5 +111,5 @@ def named(entries: Iterable[Entry]) -> tuple[Entry, ...]:
 
 
 def normalized(distribution: str) -> str:
-    """The one spelling of a distribution's name: ``Phframe_Random.Push`` is ``phframe-random-push``."""
+    """The one spelling of a distribution's name: ``Phframe_Look.Ahead`` is ``phframe-look-ahead``."""
     return re.sub(r"[-_.]+", "-", distribution).lower()

@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 
 from phframe.core import (
+    NOBODY,
     Action,
     ActionKind,
+    Advisor,
     Assessment,
     Attempt,
     Budget,
@@ -51,6 +53,7 @@ def run_episode(
     spec: RunSpec,
     observers: Sequence[Observer] = (),
     sensor: Sensor | None = None,
+    advisor: Advisor = NOBODY,
 ) -> Episode:
     """Plan in one world and carry the plan out in another, which may be more real.
 
@@ -66,9 +69,10 @@ def run_episode(
         observers: Who looks on.
         sensor: Through which the robot sees the world: what it plans, expects and aims at comes from that, what is told
             of the episode from the world as it is. None: it sees everything as it is.
+        advisor: Whom the planner may ask.
     """
     see = (lambda state: state) if sensor is None else sensor.see
-    return _Run(planner, topology, planning, execution, goal, spec, observers, see).episode()
+    return _Run(planner, topology, planning, execution, goal, spec, observers, see, advisor).episode()
 
 
 class _Run:
@@ -84,10 +88,11 @@ class _Run:
         spec: RunSpec,
         observers: Sequence[Observer],
         see: Callable[[State], State],
+        advisor: Advisor,
     ) -> None:
         self._planner, self._topology, self._planning, self._execution = planner, topology, planning, execution
         self._goal, self._spec, self._loop, self._observers, self._see = goal, spec, spec.loop, observers, see
-        self._scene = execution.scene
+        self._advisor, self._scene = advisor, execution.scene
         self._seeds = np.random.SeedSequence(spec.seed)
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
@@ -169,6 +174,7 @@ class _Run:
             budget=Budget(max(0.0, loop.time_limit - spent.total), simulations),
             rejected=self._rejections,
             reach=self._execution.unreachable,
+            advisor=self._advisor,
         )
         plan = self._planner.plan(task)
         within = self._planning.motion_planning_time - before

@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 
 from phframe.core import (
+    NOBODY,
     Action,
+    Advisor,
     ArmShape,
     ArmState,
     Budget,
@@ -82,6 +84,7 @@ class PlanningWorld(World):
         budget: Budget = Budget(),  # noqa: B008 - immutable
         rejected: tuple[Rejection, ...] = (),
         reach: Reach | None = None,
+        advisor: Advisor = NOBODY,
     ) -> Task:
         """The problem of achieving a goal from a state in this world.
 
@@ -94,6 +97,7 @@ class PlanningWorld(World):
             budget: What the planner may spend.
             rejected: Actions that could not be carried out, or came to nothing.
             reach: Whether the arm that will carry the plan out can follow an action; None: not known.
+            advisor: Whom the planner may ask.
         """
         return Task(
             scene=self.scene,
@@ -109,6 +113,7 @@ class PlanningWorld(World):
             reach=reach,
             steered=self.physics if isinstance(self.physics, SupportsPropagation) else None,
             begin_steering=self._begin_steering,
+            advisor=advisor,
         )
 
     def _begin_steering(self, state: State, pose: FloatArray | None) -> Any:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from phframe.core import Cost, Episode, RunSpec, State, Step
+from phframe.core import Cost, Episode, Hint, Question, RunSpec, State, Step
 from phframe.runtime.files import content_of
 from phframe.runtime.versions import versions_of
 
@@ -53,6 +53,23 @@ def spec_of(episode: Episode, **others: Any) -> RunSpec:
             changed |= {plan_part} if part in changed else set()
     options = {group: given for group, given in spec.options.items() if group not in {*changed, "scenes"}}
     return replace(spec, scene=episode.scene, options=options, **wanted)
+
+
+class StoredAdvice:
+    """Answers as an episode's planner was answered: the hints in its decisions, in the order in which they were given.
+
+    Args:
+        episode: The episode.
+    """
+
+    def __init__(self, episode: Episode) -> None:
+        nodes = (node for plan in episode.plans if plan.tree is not None for node in plan.tree.nodes)
+        hints = (node.decision.hint for node in nodes if node.decision is not None)
+        self._hints = iter([hint for hint in hints if hint is not None])
+
+    def advise(self, question: Question) -> Hint | None:
+        """The next hint; None: there were no more."""
+        return next(self._hints, None)
 
 
 def first_difference(before: Episode, after: Episode) -> Difference | None:

@@ -7,7 +7,18 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Any
 
-from phframe.core import Episode, Goal, JointTrajectory, Options, Planner, RunSpec, Scene, TopologyEngine
+from phframe.core import (
+    NOBODY,
+    Advisor,
+    Episode,
+    Goal,
+    JointTrajectory,
+    Options,
+    Planner,
+    RunSpec,
+    Scene,
+    TopologyEngine,
+)
 from phframe.core.run_spec import PARTS
 from phframe.registry import Kind, create, identify, load, refuse_stored_code
 from phframe.runtime.episode import run_episode
@@ -25,12 +36,17 @@ PLAN_OPTIONS: Mapping[str, Any] = {"standing_radius": 2.0 / 3.0, "arm_accelerati
 """Of that backend, where an engine in space carries the plans out; see docs/fidelity.md."""
 
 
-def run(spec: RunSpec, observers: Sequence[Observer] = ()) -> Episode:
+def run(
+    spec: RunSpec,
+    observers: Sequence[Observer] = (),
+    advisor: Advisor = NOBODY,
+) -> Episode:
     """Carry out a run: plan, execute, observe, replan, until the goal is met or there is no reason to try again.
 
     Args:
         spec: What is run.
         observers: Who looks on; they are closed at the end, also when it is interrupted.
+        advisor: Whom the planner may ask; its answers are kept in the episode's decisions.
 
     Raises:
         PhframeError: If a name, an option or the scene cannot be used. What cannot be planned is a status, not an error.
@@ -43,7 +59,7 @@ def run(spec: RunSpec, observers: Sequence[Observer] = ()) -> Episode:
         execution = stack.enter_context(ExecutionWorld(ready.world))
         sensor = Sensor(ready.noise, ready.scene, execution.arm.shape, spec.seed)
         return run_episode(
-            ready.planner, ready.topology, planning, execution, ready.goal, ready.spec, observers, sensor
+            ready.planner, ready.topology, planning, execution, ready.goal, ready.spec, observers, sensor, advisor
         )
 
 
@@ -82,6 +98,7 @@ def prepare(spec: RunSpec) -> Prepared:
     scene, noise = find_scene(spec.scene, spec.options.get("scenes")), Noise.of(spec.noise)
     parts = _identified(spec)
     made = {part: create(_kind(part), *parts[part]) for part in ("planner", "topology", "goal")}
+    made["planner"].check(scene)
     world = WorldSpec(scene, parts["backend"][0], parts["arm"][0], parts["backend"][1], parts["arm"][1])
     plan_world, inherited = _plan_world(world, parts)
     stored = {part: _differing(_kind(part), *parts[part], {}) for part in PARTS if not part.startswith("plan_")}

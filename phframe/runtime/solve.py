@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from phframe.core import Episode, Loop, RunSpec, Scene
+from phframe.core import NOBODY, Advisor, Episode, Loop, RunSpec, Scene
 from phframe.runtime.noise import Noise
 from phframe.runtime.observer import Observer
 from phframe.runtime.run import run
@@ -31,6 +31,7 @@ def solve(
     plan_arm: Any = None,
     noise: str | Mapping[str, Any] | None = None,
     observers: Sequence[Observer] = (),
+    advisor: Advisor = NOBODY,
 ) -> Episode:
     """Take the target out of a shelf: plan, carry out, observe, replan, grasp, withdraw.
 
@@ -56,6 +57,7 @@ def solve(
         noise: By how much what the planner believes differs from what is true: ``position`` (m) and ``friction``
             (relative), standard deviations, as a mapping or as text such as ``position=0.005,friction=0.3``.
         observers: Who looks on; they are closed at the end, also when it is interrupted.
+        advisor: Whom the planner may ask, if it is one that asks.
 
     Raises:
         PhframeError: If a name, an option or the scene cannot be used. What cannot be planned is a status, not an error.
@@ -80,4 +82,4 @@ def solve(
         for observer in observers:
             observer.close()
         raise
-    return run(spec, observers)
+    return run(spec, observers, advisor)

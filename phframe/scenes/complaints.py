@@ -9,8 +9,8 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from phframe.scenes.model import SHAPES, ScenePart, ShelfPart
-from phframe.scenes.wording import did_you_mean, place, shortened, shown
-from phframe.scenes.yaml_tree import Path, YamlTree
+from phframe.yaml.tree import Path, YamlTree
+from phframe.yaml.wording import did_you_mean, place, shortened, shown
 
 _EXPECTED = {
     "float_type": "a number",

@@ -1,4 +1,4 @@
-"""Where random objects stand: a target deep in the shelf, obstacles before it, some of them in its way.
+"""Where random objects stand: a target deep in the shelf, obstacles before or around it, some of them in its way.
 
 Everything is in whole tenths of a millimetre, with no function whose last digit depends on the machine's mathematics
 library, so the same seed gives the same places everywhere.
@@ -31,6 +31,10 @@ class Layout:
         gap: Least free space between objects, and to the walls.
         target_gap: Least free space around the target.
         corridor: Half-width of the corridor.
+        wall_gap: Least free space between the target and the side walls, if more than ``gap``.
+        bands: Least and greatest distance of the target's centre from a side wall; one of them, and one of the walls, is
+            drawn. None: it may stand anywhere between the walls.
+        anywhere: Whether obstacles may stand beside and behind the target, too; else all are nearer to the mouth.
     """
 
     count: int
@@ -41,11 +45,19 @@ class Layout:
     gap: int
     target_gap: int
     corridor: int
+    wall_gap: int = 0
+    bands: tuple[tuple[int, int], ...] | None = None
+    anywhere: bool = False
 
     @property
     def target_depths(self) -> tuple[int, int]:
         """Least and greatest x of the target: between two thirds and nine tenths of the shelf's depth."""
         return 2 * self.depth // 3, min(9 * self.depth // 10, self.depth - self.radius - self.gap)
+
+    @property
+    def target_margin(self) -> int:
+        """Least distance of the target's centre from the side walls."""
+        return self.radius + max(self.gap, self.wall_gap)
 
 
 def place_objects(layout: Layout, draws: Draws) -> list[Point] | int:
@@ -61,8 +73,7 @@ def place_objects(layout: Layout, draws: Draws) -> list[Point] | int:
 
 def _attempt(layout: Layout, draws: Draws) -> tuple[list[Point], int]:
     """One try at a whole scene, the target first: the places found and the number of candidates looked at."""
-    low, high = layout.target_depths
-    target = _candidate(layout, draws, low, high)
+    target = _target(layout, draws)
     if target is None or target[0] ** 2 + target[1] ** 2 <= layout.corridor**2:  # no corridor leads there
         return [], 1
     places, used = [target], 1
@@ -75,10 +86,22 @@ def _attempt(layout: Layout, draws: Draws) -> tuple[list[Point], int]:
     return places, used
 
 
+def _target(layout: Layout, draws: Draws) -> Point | None:
+    (low, high), margin = layout.target_depths, layout.target_margin
+    if low > high or margin > layout.width - margin or layout.bands == ():
+        return None
+    x = draws.between(low, high)
+    if layout.bands is None:
+        return x, draws.between(margin, layout.width - margin)
+    y = draws.between(*layout.bands[draws.between(0, len(layout.bands) - 1)])
+    return x, layout.width - y if draws.between(0, 1) else y
+
+
 def _obstacle(layout: Layout, draws: Draws, places: list[Point], *, blocking: bool) -> tuple[Point | None, int]:
-    target = places[0]
+    target, nearest = places[0], layout.radius + layout.gap
+    deepest = layout.depth - nearest if layout.anywhere else target[0] - 1
     for tries in range(1, TRIES_PER_OBJECT + 1):
-        place = _candidate(layout, draws, layout.radius + layout.gap, target[0] - 1)
+        place = _candidate(layout, draws, nearest, deepest)
         if place is None:
             break
         if _is_free(layout, place, places) and not (blocking and not in_corridor(layout, place, target)):

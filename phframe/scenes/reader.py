@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
-from phframe.core import BasePose, Cylinder, InputError, Scene, SceneError, SceneObject, Shelf
-from phframe.core.paths import path_shown, user_path
+from phframe.core import BasePose, Cylinder, DocumentError, Scene, SceneError, SceneObject, Shelf
+from phframe.core.paths import path_shown
 from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, CylinderPart, ObjectPart, ScenePart
-from phframe.scenes.wording import shortened, shown
-from phframe.scenes.yaml_tree import YamlTree, parse_yaml
+from phframe.yaml.file import read_text, refuse_size
+from phframe.yaml.tree import YamlTree, parse_yaml
+from phframe.yaml.wording import shortened, shown
 
-MAX_BYTES = 1_000_000
-"""Larger files are refused unread: a scene of a thousand objects has a tenth of that."""
+_WHAT = "scene file"
 
 
 def read_scene(path: str | Path) -> Scene:
@@ -28,8 +30,9 @@ def read_scene(path: str | Path) -> Scene:
         InputError: If the file cannot be read.
         SceneError: If it is no scene of format 1, or a scene that cannot be. Every problem is named.
     """
-    source = path_shown(path)
-    return parse_scene(_decoded(_content(user_path(path), source), source), source)
+    with _of_scenes():
+        text = read_text(path, _WHAT)
+    return parse_scene(text, path_shown(path))
 
 
 def parse_scene(text: str, source: str = "scene") -> Scene:
@@ -42,9 +45,9 @@ def parse_scene(text: str, source: str = "scene") -> Scene:
     Raises:
         SceneError: If it is no scene of format 1, or a scene that cannot be. Every problem is named.
     """
-    if len(text) > MAX_BYTES:
-        raise _too_large(source)
-    tree = parse_yaml(text, source)
+    with _of_scenes():
+        refuse_size(len(text), source, _WHAT)
+        tree = parse_yaml(text, source)
     _check_format(tree, source)
     try:
         part = ScenePart.model_validate(tree.content)
@@ -53,28 +56,13 @@ def parse_scene(text: str, source: str = "scene") -> Scene:
     return _scene(part, source)
 
 
-def _content(path: Path, source: str) -> bytes:
+@contextmanager
+def _of_scenes() -> Iterator[None]:
+    """What is wrong with a document is wrong with a scene."""
     try:
-        with path.open("rb") as file:
-            content = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:  # ValueError: a path with a zero byte
-        reason = getattr(error, "strerror", None) or str(error)
-        raise InputError(f"cannot read the scene file {source}: {reason[:1].lower()}{reason[1:]}") from None
-    if len(content) > MAX_BYTES:
-        raise _too_large(source)
-    return content
-
-
-def _too_large(source: str) -> SceneError:
-    return SceneError(f"larger than {MAX_BYTES // 1_000_000} MB; that is no scene file", source)
-
-
-def _decoded(content: bytes, source: str) -> str:
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        raise SceneError(f"line {line}: not UTF-8 text (byte 0x{content[error.start]:02x})", source) from None
+        yield
+    except DocumentError as error:
+        raise SceneError(error.problems, error.source) from error.__cause__
 
 
 def _check_format(tree: YamlTree, source: str) -> None:

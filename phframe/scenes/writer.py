@@ -16,8 +16,8 @@ from phframe.core.paths import user_path
 from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, ScenePart
 from phframe.scenes.shapes import figures_of
-from phframe.scenes.yaml_scalars import plain_scalar
-from phframe.scenes.yaml_tree import YamlTree
+from phframe.yaml.scalars import plain_scalar
+from phframe.yaml.tree import YamlTree
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*")
 
@@ -28,7 +28,7 @@ def scene_to_yaml(scene: Scene) -> str:
     Raises:
         SceneError: If a name in the scene cannot be written: empty, over 100 characters, or not printable.
     """
-    content = _content(scene)
+    content = scene_content(scene)
     try:
         part = ScenePart.model_validate(content)
     except ValidationError as error:
@@ -46,8 +46,8 @@ def write_scene(scene: Scene, path: str | Path) -> None:
     write_file(user_path(path), scene_to_yaml(scene))
 
 
-def _content(scene: Scene) -> dict[str, Any]:
-    """The scene as the mappings and lists of its file. Plain floats: a scene may hold numpy's."""
+def scene_content(scene: Scene) -> dict[str, Any]:
+    """The scene as the mappings and lists of its file, nothing left out. Plain floats: a scene may hold numpy's."""
     shelf = scene.shelf
     names = ("depth", "width", "height", "board_friction", "wall_friction")
     return {

@@ -17,10 +17,10 @@ NEVER_DONE = """
 from pathlib import Path
 from phframe.core import Plan, Planner, Status
 from phframe.planners.ooa import OOA
-from phframe.pushing.options import PushingOptions
+from phframe.pushing.options import ClearingOptions
 
-class NeverDone(Planner[PushingOptions]):
-    options_type = PushingOptions
+class NeverDone(Planner[ClearingOptions]):
+    options_type = ClearingOptions
     plans = 0
 
     def search(self, task):

@@ -30,10 +30,16 @@ def test_the_listings_list_what_is_registered(invoke: Invoke, title: str) -> Non
     assert result.stdout.count("\n") == 1
     assert result.stderr == ""
     assert listed["format"] == 1
-    assert [item["name"] for item in listed[title]] == [e.name for e in catalogue().extensions(TITLES[title])]
+    entries = catalogue().extensions(TITLES[title])
+    names = [[e.name, *(f"{e.name}[{options}]" for options, _ in e.extension.variants)] for e in entries]
+    assert [item["name"] for item in listed[title]] == [name for each in names for name in each]
     for item in listed[title]:
         assert item["name"] in table.stdout
         assert item["summary"] in table.stdout
+
+
+def test_a_planner_with_the_paper_s_sweep_is_listed_as_one_of_its_own(invoke: Invoke) -> None:
+    assert {"phia[sweeps=paper]", "ooa[sweeps=paper]", "phis[sweeps=paper]"} <= set(invoke("planners").stdout.split())
 
 
 def test_every_listed_scene_is_one_that_loads(invoke: Invoke) -> None:

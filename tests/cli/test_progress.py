@@ -61,3 +61,28 @@ def test_nothing_is_shown_where_there_is_no_terminal(
     monkeypatch.setattr(sys, "stderr", screen := io.StringIO())
     _watch(Progress(after=0.0), scene, arm)
     assert screen.getvalue() == ""
+
+
+def test_it_steps_aside_while_somebody_else_has_the_screen(
+    monkeypatch: pytest.MonkeyPatch, scene: Scene, arm: MountedArm
+) -> None:
+    monkeypatch.setattr(sys, "stderr", screen := Terminal())
+    monkeypatch.setenv("TERM", "xterm")
+    with closing(Progress(after=0.0)) as progress:
+        progress.start()
+        progress.begin(scene, SPEC, arm)
+        until(lambda: "Planning with phia" in screen.getvalue())
+        with progress.aside():
+            before = screen.getvalue()
+            assert before.endswith("\x1b[2K")  # the line is wiped, and the cursor is at its beginning
+            progress.planned(Plan(Status.FAILED, "no way"))
+            assert screen.getvalue() == before
+        until(lambda: len(screen.getvalue()) > len(before))
+
+
+def test_what_was_not_begun_does_not_come_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stderr", screen := Terminal())
+    monkeypatch.setenv("TERM", "xterm")
+    with closing(Progress(after=0.0)) as progress, progress.aside():
+        pass
+    assert screen.getvalue() == ""

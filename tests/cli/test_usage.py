@@ -21,11 +21,11 @@ objects:
     ("arguments", "said"),
     [
         (["solv"], "Did you mean 'solve'?"),
-        (["planners", "phai"], "Did you mean 'phia'?"),
+        (["planners", "phya"], "Did you mean 'phia'?"),
         (["scenes", "viera"], "Did you mean 'vieira'?"),
         (["planners", "--jsn"], "Did you mean '--json'?"),
         (["solve", "--planer", "phia"], "Did you mean '--planner'?"),
-        (["solve", "--planner", "phai"], "Did you mean 'phia'?"),
+        (["solve", "--planner", "phya"], "Did you mean 'phia'?"),
         (["solve", "--backend", "pymonk"], "Did you mean 'pymunk'?"),
         (["solve", "--arm", "plannar"], "Did you mean 'planar'?"),
         (["solve", "--topology", "riper"], "Did you mean 'ripser'?"),

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from phframe.core import BudgetExceededError, Plan, SearchNode, State, Status, Task
-from phframe.planners.phia import PHIA
-from phframe.pushing import PushDecision, PushingOptions
+from phframe.planners.phia import PHIA, PHIAOptions
+from phframe.pushing import PushDecision
 from phframe.testing import (
     PLANNER_CHECKS,
     Check,
@@ -129,7 +129,7 @@ class Rearranges(PHIA):
 
 class ChangesItsMind(PHIA):
     def search(self, task: Task) -> Plan:
-        object.__setattr__(self, "options", PushingOptions(max_actions=self.options.max_actions + 1))
+        object.__setattr__(self, "options", PHIAOptions(max_actions=self.options.max_actions + 1))
         return super().search(task)
 
 
@@ -180,7 +180,7 @@ def tasks() -> MakeTask:
 
 @pytest.mark.parametrize("check", [*PLANNER_CHECKS, order_of_objects_does_not_matter], ids=lambda check: check.name)
 def test_every_check_can_fail(check: Check[PlannerUnderTest]) -> None:
-    planner = BROKEN[check.name](PushingOptions())
+    planner = BROKEN[check.name](PHIAOptions())
     with pytest.raises(ConformanceError) as caught:
         check(PlannerUnderTest(planner, tasks()))
     assert caught.value.failures[0].check == check.name
@@ -193,4 +193,4 @@ def test_returning_none_is_found() -> None:
             return None  # type: ignore[return-value]
 
     with pytest.raises(ConformanceError, match="plans_are_well_formed"):
-        check_planner(Silent(PushingOptions()), tasks())
+        check_planner(Silent(PHIAOptions()), tasks())

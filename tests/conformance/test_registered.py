@@ -40,10 +40,17 @@ from phframe.testing import (
     simulated_tasks,
 )
 
-DETERMINISTIC = ("phia", "ooa")
+DETERMINISTIC = ("phia", "ooa", "phis", "phim")
 """Planners that promise that the order of objects does not matter."""
 
+BRIEFLY = {
+    "grtc-kinodynamic": {"controls": 20, "reach_controls": 150, "attempts": 1},
+    "kinodynamic-rrt": {"actions": 4, "max_iterations": 5},
+}
+"""Options with which planners that simulate by the thousand are checked, so that they end soon."""
+
 NEEDS = {
+    "grtc-kinodynamic": pytest.mark.needs_ompl,
     "mujoco": pytest.mark.needs_mujoco,
     "pybullet": pytest.mark.needs_pybullet,
     "baxter": pytest.mark.needs_baxter,
@@ -90,7 +97,7 @@ def run(check: Check[Any], subject: object) -> None:
 
 def made(kind: Kind, name: str) -> Any:
     try:
-        return create(kind, name)
+        return create(kind, name, BRIEFLY.get(name))
     except NotInstalledError as error:
         pytest.skip(str(error))
 
@@ -149,7 +156,7 @@ def test_goal(goal: str, check: Check[GoalUnderTest]) -> None:
 
 
 @each_check(PLANNER_CHECKS)
-@pytest.mark.parametrize("planner", names(Kind.PLANNER))
+@pytest.mark.parametrize("planner", [pytest.param(name, marks=NEEDS.get(name, ())) for name in names(Kind.PLANNER)])
 def test_planner(planner: str, check: Check[PlannerUnderTest]) -> None:
     run(check, PlannerUnderTest(made(Kind.PLANNER, planner), simulated_tasks()))
 

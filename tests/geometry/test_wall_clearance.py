@@ -96,3 +96,9 @@ def test_parts_with_fewer_corners_than_others_meet_walls_without_a_margin_too() 
     walls = WallClearance(SHELF, (WEDGE, bar), 0.0, 0.0)
     assert walls.travel(np.array([0.2, 0.3]), np.array([1.0, 0.0]), 1.0) == pytest.approx(0.4)
     assert not walls.is_free(np.array([0.61, 0.3]))
+
+
+def test_a_yaw_that_is_nearly_nothing_is_none() -> None:
+    tip, ahead = np.array([-0.05, 0.4]), np.array([1.0, 0.0])
+    tiny, none = (WallClearance(SHELF, ARM.closed, yaw, 0.002).travel(tip, ahead, 0.5) for yaw in (2e-311, 0.0))
+    assert tiny == pytest.approx(none)

@@ -24,7 +24,7 @@ from phframe.core import (
     Transition,
 )
 from phframe.planners.ooa import OOA
-from phframe.pushing import Deviation, PushDecision, PushingOptions
+from phframe.pushing import ClearingOptions, Deviation, PushDecision
 from phframe.topology.single_linkage import SingleLinkage
 from tests.pushing.parts import ARM, RETRIEVE, rejections, scene_of
 
@@ -51,8 +51,8 @@ def task_of(scene: Scene, answer: Answer, rejected: tuple[Action, ...] = ()) -> 
     )
 
 
-def plan(scene: Scene, answer: Answer, rejected: tuple[Action, ...] = (), **options: int) -> Plan:
-    return OOA(PushingOptions(**options)).plan(task_of(scene, answer, rejected))
+def plan(scene: Scene, answer: Answer, rejected: tuple[Action, ...] = (), **options: object) -> Plan:
+    return OOA(ClearingOptions.parse(options, "ooa")).plan(task_of(scene, answer, rejected))
 
 
 def moved(state: State, row: int, by: tuple[float, float]) -> State:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 
 import numpy as np
@@ -42,6 +43,17 @@ def pushed(case: Case, push: Push) -> FloatArray:
     depths = np.minimum(case.local[:, 0] - sweep.depth, front - 1e-9)
     sides = np.array([highest(ARM.closed, sweep.tilt, depth, sweep.direction) for depth in depths])
     return np.column_stack([case.local[:, 0], sweep.end + sweep.direction * (sides + RADIUS)])
+
+
+def nearest(case: Case, push: Push) -> float:
+    """The least distance (m) between the arm, on its way in and across, and the centre of a member."""
+    arm = posed(boundary(ARM.closed), 0.0, 0.0, push.sweep.tilt)
+    distances = []
+    for start, end in pairwise(push.sweep.waypoints[:3]):
+        for member in case.local - start:
+            along = np.clip((member - arm) @ (end - start) / ((end - start) @ (end - start)), 0.0, 1.0)
+            distances.append(np.linalg.norm(member - arm - along[:, None] * (end - start), axis=1).min())
+    return float(min(distances))
 
 
 @often
@@ -86,6 +98,29 @@ def test_the_sweep_goes_in_its_direction_and_reaches_the_nearest_member(case: Ca
         assert case.local[:, 0].min() - 0.9 * RADIUS < sweep.depth <= case.local[:, 0].max() + 1e-12
         assert sweep.tilt in TILTS
         assert (Deviation.TILTED in push.deviations) is (sweep.tilt != 0.0)
+
+
+@often
+@given(anything)
+def test_the_arm_meets_a_member_on_its_way_in_or_across(case: Case) -> None:
+    for push in case.pushes:
+        assert nearest(case, push) < RADIUS + 1e-4
+
+
+@pytest.mark.parametrize(
+    ("target", "member", "direction", "tilt"),
+    [
+        ((0.478, 0.189), (0.472, 0.097), 1, 0.0),  # the lane, shifted past the target, is beyond the member
+        ((0.414, 0.141), (0.403, 0.030), 1, 0.0),  # the lane, clamped to the wall, is beyond the member
+        ((0.414, 0.141), (0.307, 0.059), 1, math.radians(10.0)),
+        ((0.385, 0.471), (0.105, 0.580), 1, 0.0),  # clamped at both ends, it stops short of the member
+    ],
+)
+def test_a_sweep_that_would_meet_no_member_is_not_proposed(
+    target: tuple[float, float], member: tuple[float, float], direction: Direction, tilt: float
+) -> None:
+    case = Case(Shelf(0.6, 0.61), target, np.array([member]))
+    assert case.fitted(direction, tilt) is None
 
 
 @often

@@ -22,8 +22,7 @@ from phframe.core import (
     Trajectory,
     Watch,
 )
-from phframe.planners.phia import PHIA
-from phframe.pushing.options import PushingOptions
+from phframe.planners.phia import PHIA, PHIAOptions
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import Observer
 from phframe.runtime.world import WorldSpec
@@ -52,7 +51,7 @@ class DoesNothing(Planner[Options]):
 
 
 def test_a_plan_that_only_clears_is_carried_out_and_no_more() -> None:
-    episode = run(ExecutionWorld(SPEC), OnlyClears(PushingOptions()))
+    episode = run(ExecutionWorld(SPEC), OnlyClears(PHIAOptions()))
     assert (episode.status, episode.replans) == (Status.CLEARED, 0)
     assert episode.reason == "the corridor is empty, and the target was not grasped"
     assert [step.action for step in episode.steps] == list(episode.plans[0].actions)
@@ -82,7 +81,7 @@ def test_a_simulation_that_diverges_while_planning_is_a_result() -> None:
         def search(self, task: Task) -> Plan:
             raise SimulationDivergedError("the simulation diverged: 'o1' moves at 1e+09 m/s")
 
-    episode = run(ExecutionWorld(SPEC), Diverges(PushingOptions()))
+    episode = run(ExecutionWorld(SPEC), Diverges(PHIAOptions()))
     assert (episode.status, episode.steps) == (Status.FAILED, ())
     assert "diverged" in episode.reason
 
@@ -124,8 +123,8 @@ def test_a_grasp_that_misses_is_reached_or_tried_again() -> None:
     assert (len(once.plans), once.replans, once.status) == (1, 0, Status.REACHED)
 
 
-@pytest.mark.parametrize("planner", [OnlyClears(PushingOptions()), Noting()])
-def test_an_interrupt_is_not_swallowed(planner: Planner[PushingOptions]) -> None:
+@pytest.mark.parametrize("planner", [OnlyClears(PHIAOptions()), Noting()])
+def test_an_interrupt_is_not_swallowed(planner: Planner[PHIAOptions]) -> None:
     def interrupt(_: Action) -> bool:
         raise KeyboardInterrupt
 
@@ -151,7 +150,7 @@ def test_an_interrupted_episode_tells_what_was_tried_and_rejected() -> None:
 
     kept = Kept()
     with pytest.raises(KeyboardInterrupt):
-        run(Clumsy(WorldSpec(BASIC), lambda _: True), Interrupted(PushingOptions()), observers=[kept])
+        run(Clumsy(WorldSpec(BASIC), lambda _: True), Interrupted(PHIAOptions()), observers=[kept])
     assert kept.partial is not None
     assert (len(kept.partial.plans), len(kept.partial.rejections)) == (1, 1)
     assert kept.partial.rejections[0].reason.endswith("joint 4 at its limit")

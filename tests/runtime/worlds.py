@@ -23,8 +23,7 @@ from phframe.core import (
     Unreachable,
     Watch,
 )
-from phframe.planners.phia import PHIA
-from phframe.pushing.options import PushingOptions
+from phframe.planners.phia import PHIA, PHIAOptions
 from phframe.registry import Kind, create
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
@@ -75,7 +74,7 @@ class Clumsy(ExecutionWorld):
 class Noting(PHIA):
     """PHIA, noting the tasks it is given."""
 
-    def __init__(self, options: PushingOptions = PushingOptions()) -> None:  # noqa: B008 - immutable
+    def __init__(self, options: PHIAOptions = PHIAOptions()) -> None:  # noqa: B008 - immutable
         super().__init__(options)
         self.tasks: list[Task] = []
 

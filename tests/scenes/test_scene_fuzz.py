@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from phframe.core import PhframeError, Scene
 from phframe.scenes import parse_scene, read_scene
-from phframe.scenes.yaml_scalars import plain_scalar
+from phframe.yaml.scalars import plain_scalar
 
 PIECES = (
     *(

@@ -9,8 +9,8 @@ import pytest
 
 from phframe.core import BasePose, Cylinder, InputError, SceneError, SceneObject, Shelf
 from phframe.scenes import parse_scene, read_scene
-from phframe.scenes.reader import MAX_BYTES
-from phframe.scenes.yaml_tree import MAX_DEPTH
+from phframe.yaml.file import MAX_BYTES
+from phframe.yaml.tree import MAX_DEPTH
 
 GOOD = """\
 phframe: 1

@@ -94,8 +94,21 @@ def _between(world: ShelfSpace, points: FloatArray) -> NDArray[np.bool_]:
 
 def stays_outside(world: ShelfSpace, start: FloatArray, end: FloatArray) -> bool:
     """Whether an empty gripper stays, between two poses, before everything that may stand out of the mouth."""
+    if world.held is not None:
+        return False
     reach = -max((item.radius for item in world.items.values()), default=0.0) - MARGIN
-    poses = start + np.linspace(0.0, 1.0, TURN_SAMPLES)[:, None] * (end - start)
-    x, y = world.measures.corners_at(world.opening).T
+    corners = world.measures.corners_at(world.opening)
+    # One that is inside to begin with, as in every step of steering, is told without looking at the rest of the way.
+    return _is_outside(start[None], corners, reach) and _is_outside(_along(start, end), corners, reach)
+
+
+def _along(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Poses ``(TURN_SAMPLES, 3)`` on the way from one to another."""
+    return np.asarray(start + np.linspace(0.0, 1.0, TURN_SAMPLES)[:, None] * (end - start))
+
+
+def _is_outside(poses: FloatArray, corners: FloatArray, reach: float) -> bool:
+    """Whether all corners ``(v, 2)`` of the arm lie before a depth at all poses ``(k, 3)``."""
+    x, y = corners.T
     fronts = poses[:, :1] + np.cos(poses[:, 2:]) * x - np.sin(poses[:, 2:]) * y
-    return world.held is None and bool((fronts < reach).all())
+    return bool((fronts < reach).all())

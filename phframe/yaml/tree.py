@@ -10,12 +10,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from phframe.core import SceneError
-from phframe.scenes.wording import abridged, shortened, shown
-from phframe.scenes.yaml_scalars import plain_scalar
+from phframe.core import DocumentError
+from phframe.yaml.scalars import plain_scalar
+from phframe.yaml.wording import abridged, shortened, shown
 
 MAX_DEPTH = 20
-"""Mappings and lists inside one another; a scene needs four."""
+"""Mappings and lists inside one another; a scene, the largest of them, needs four."""
 
 MAX_VALUES = 50_000
 """Keys, values, lists and mappings in one file; a scene of a thousand objects has about 15,000."""
@@ -50,7 +50,7 @@ def parse_yaml(text: str, source: str) -> YamlTree:
         source: The file it comes from, for the error.
 
     Raises:
-        SceneError: If it is not YAML, or holds aliases, anchors, tags, directives, duplicate keys, keys that are not
+        DocumentError: If it is not YAML, or holds aliases, anchors, tags, directives, duplicate keys, keys that are not
             plain text, more than one document, or nesting beyond ``MAX_DEPTH``.
     """
     builder = _Builder()
@@ -58,9 +58,9 @@ def parse_yaml(text: str, source: str) -> YamlTree:
         for event in _events(text, source):
             builder.take(event)
     except _StopError as error:
-        raise SceneError(shortened([*builder.problems, f"line {builder.line}: {error}"]), source) from None
+        raise DocumentError(shortened([*builder.problems, f"line {builder.line}: {error}"]), source) from None
     if builder.problems:
-        raise SceneError(shortened(builder.problems), source)
+        raise DocumentError(shortened(builder.problems), source)
     return YamlTree(builder.root, builder.lines)
 
 
@@ -70,7 +70,7 @@ def _events(text: str, source: str) -> Iterator[Any]:
     try:
         yield from YAML(typ="safe", pure=True).parse(text)
     except Exception as error:  # the parser meets text of any kind, and whatever it raises is about that text
-        raise SceneError(_not_yaml(error, text), source) from error
+        raise DocumentError(_not_yaml(error, text), source) from error
 
 
 def _not_yaml(error: Exception, text: str) -> str:
@@ -111,7 +111,7 @@ class _Builder:
         self.line = event.start_mark.line + 1
         self.values += 1
         if self.values > MAX_VALUES:
-            raise _StopError(f"more than {MAX_VALUES} values; that is no scene file")
+            raise _StopError(f"more than {MAX_VALUES} values; no file that somebody wrote has as many")
         handler = _HANDLERS.get(type(event).__name__)
         if handler:
             handler(self, event)

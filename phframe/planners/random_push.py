@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 
 from phframe.core import ROOT, Plan, Planner, Task
-from phframe.pushing import Deviation, Proposal, PushingOptions, PushProblem, PushSearch, is_unchanged
+from phframe.pushing import Deviation, Proposal, PushingOptions, PushProblem, PushSearch, by_direction, is_unchanged
 
 
 class RandomPush(Planner[PushingOptions]):
     """Sweeps a random obstacle of the corridor, alone, in a random direction, until the target is free.
 
-    A sweep that moves nothing is left out of the plan, but counts as one of the ``max_actions`` attempts.
+    A sweep that moves nothing is left out of the plan, but counts as one of the ``max_actions`` attempts. ``patience`` is
+    not used: chance may yet help.
     """
 
     options_type = PushingOptions
@@ -39,19 +40,14 @@ class RandomPush(Planner[PushingOptions]):
 def _propose(search: PushSearch, problem: PushProblem) -> Proposal | None:
     """A random direction of the first obstacle, in random order, beside which a sweep fits."""
     for member in search.task.rng.permutation(len(problem.members)):
-        proposals = _proposals(search, problem, int(member))
-        if proposals:
-            return proposals[search.task.rng.integers(len(proposals))]
+        ways = by_direction(search.pushing.sweeps(problem, np.array([member])))
+        if ways:
+            return _drawn(ways[search.task.rng.integers(len(ways))][0])
     return None
 
 
-def _proposals(search: PushSearch, problem: PushProblem, member: int) -> list[Proposal]:
-    """The best sweep of one obstacle in each direction, if one fits that was not rejected."""
-    best: dict[int, Proposal] = {}
-    for decision, action in search.pushing.sweeps(problem, np.array([member])):
-        assert decision.sweep is not None, "a sweep's decision says which"
-        # The direction is drawn at random here; it deviates from nothing.
-        deviations = tuple(each for each in decision.deviations if each != Deviation.OTHER_DIRECTION)
-        random = replace(decision, why="a random obstacle, in a random direction", deviations=deviations)
-        best.setdefault(decision.sweep.direction, (random, action))
-    return list(best.values())
+def _drawn(proposal: Proposal) -> Proposal:
+    """The sweep as one that chance has drawn: its direction deviates from nothing."""
+    decision, action = proposal
+    deviations = tuple(each for each in decision.deviations if each != Deviation.OTHER_DIRECTION)
+    return replace(decision, why="a random obstacle, in a random direction", deviations=deviations), action

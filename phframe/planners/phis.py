@@ -1,0 +1,170 @@
+"""PHIS: persistent homology informed search (Algorithm 5)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from math import inf
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from phframe.core import ROOT, Action, Assessment, Infeasible, Plan, Planner, Task, time_path
+from phframe.pushing import Grasp, Proposal, PushingOptions, PushProblem, PushSearch, by_direction
+
+
+class PHISOptions(PushingOptions):
+    """The shared ones, and how far the search goes.
+
+    Attributes:
+        directions: Of every group: ``paper``: the best sweep, in the paper's direction where that fits; ``both``: the best
+            one in each.
+        max_nodes: Nodes of the search tree after which the best plan found so far counts.
+    """
+
+    directions: Literal["paper", "both"] = "paper"
+    max_nodes: Annotated[int, Field(ge=1, le=1_000_000)] = 200
+
+
+class PHIS(Planner[PHISOptions]):
+    """Searches the sweeps of the closest component at all usable radii; the plan has the least total pushing time."""
+
+    options_type = PHISOptions
+
+    def search(self, task: Task) -> Plan:
+        """Breadth-first, level by level, until no push that is left to try can lead to a quicker plan."""
+        return _BreadthFirst(task, self.options).run()
+
+
+@dataclass(frozen=True, slots=True)
+class _Choice:
+    """Sweeps of one group from one node, best first, those that were tried already left out."""
+
+    node: int
+    sweeps: Iterator[Proposal]
+
+
+class _BreadthFirst:
+    """One search. A node's value is the total time of the pushes that lead to it (s)."""
+
+    def __init__(self, task: Task, options: PHISOptions) -> None:
+        self._task, self._options = task, options
+        self._search = PushSearch(task, options)
+        self._tree = self._search.tree
+        self._tree.rate(ROOT, 0.0)
+        self._left: dict[int, int] = {}  # obstacles in the way at a node
+        self._spare: list[_Choice] = []  # of which a sweep was safe, in the order they were tried
+        self._best: tuple[int, Assessment] | None = None
+        self._best_time = inf
+        self._failed_grasp: tuple[int, Assessment] | None = None
+
+    def run(self) -> Plan:
+        """Level after level; where that leads to no plan, from the next sweeps of the groups that were pushed."""
+        level = self._push(self._choices([ROOT]))
+        while level or (self._spare and self._best is None and self._room):
+            choices, self._spare = (self._choices(level), self._spare) if level else (self._spare, [])
+            level = self._push(choices)
+        return self._result()
+
+    def _choices(self, level: Sequence[int]) -> list[_Choice]:
+        """What can be pushed at the nodes of a level, the one reached in the least time first; grasp where nothing must be."""
+        return [choice for node in sorted(level, key=self._time) for choice in self._choices_at(node)]
+
+    def _choices_at(self, node: int) -> list[_Choice]:
+        """None where the node is closed, or grasped from."""
+        step = self._search.next_step(node)
+        if isinstance(step, Grasp):
+            self._grasp(node, step)
+        elif isinstance(step, Infeasible):
+            self._tree.close(node, step.reason)
+        elif why := self._search.hopeless(node, step):
+            self._tree.close(node, why)
+        elif choices := list(self._groups(node, step)):
+            self._left[node] = len(step.members)
+            return choices
+        else:
+            self._tree.close(node, "no sweep fits beside the closest component")
+        return []
+
+    def _groups(self, node: int, problem: PushProblem) -> Iterator[_Choice]:
+        """The sweeps of the closest component at each radius; of radii whose first sweep is the same, the smallest counts."""
+        known: set[bytes] = set()
+        for found in self._search.pushing.pushes_at_all_radii(problem):
+            for sweeps in self._ways(found):
+                first = next(sweeps, None)
+                if first is None or (path := first[1].path.poses.tobytes()) in known:
+                    continue
+                known.add(path)
+                yield _Choice(node, chain([first], sweeps))
+
+    def _ways(self, sweeps: Iterator[Proposal]) -> list[Iterator[Proposal]]:
+        """The sweeps of a group, by direction if both are asked for."""
+        if self._options.directions == "paper":
+            return [sweeps]
+        return [iter(way) for way in by_direction(sweeps)]
+
+    @property
+    def _room(self) -> int:
+        """How many nodes the tree may still get."""
+        return max(0, self._options.max_nodes - len(self._tree))
+
+    def _push(self, choices: list[_Choice]) -> list[int]:
+        """Simulate the next sweep of each choice, again where that was not safe; returns the nodes of those that were."""
+        level: list[int] = []
+        while choices and self._room:
+            nexts = ((choice, self._next(choice)) for choice in choices)
+            ready = [(choice, sweep) for choice, sweep in nexts if sweep is not None][: self._room]
+            nodes = self._simulate([(choice.node, sweep) for choice, sweep in ready])
+            level += [node for node in nodes if not self._tree[node].closed]
+            made = [(choice, self._tree[node].closed) for (choice, _), node in zip(ready, nodes, strict=True)]
+            self._spare += [choice for choice, closed in made if not closed]
+            choices = [choice for choice, closed in made if closed]
+        return level
+
+    def _next(self, choice: _Choice) -> Proposal | None:
+        """The next sweep that may lead to a quicker plan than the best one."""
+        allowed = self._best_time - self._time(choice.node)
+        return next((sweep for sweep in choice.sweeps if _least_time(sweep[1]) < allowed), None)
+
+    def _simulate(self, pushes: Sequence[tuple[int, Proposal]]) -> list[int]:
+        """The nodes that pushes lead to. Where the budget runs out among them, the first ones are in the tree."""
+        nodes: list[int] = []
+        while len(nodes) < len(pushes):
+            made = self._search.try_frontier(pushes[len(nodes) :])
+            for (parent, _), node in zip(pushes[len(nodes) :], made, strict=False):
+                motion = self._tree[node].motion
+                self._tree.rate(node, self._time(parent) + (motion.duration if motion is not None else 0.0))
+            nodes += made
+        return nodes
+
+    def _time(self, node: int) -> float:
+        """Of the pushes that lead to a node (s)."""
+        return self._tree[node].value or 0.0
+
+    def _grasp(self, node: int, grasp: Grasp) -> None:
+        """Grasp from a node, if the pushes that lead to it take less time than those of the best plan so far."""
+        if self._time(node) >= self._best_time:
+            return
+        end, outcome = self._search.try_grasp(node, grasp)
+        self._tree.rate(end, self._time(node))
+        if outcome.status.is_success:
+            self._best, self._best_time = (end, outcome), self._time(node)
+            self._task.offer(self._tree.plan(end, outcome.status, outcome.reason))
+            return
+        self._tree.close(end, outcome.reason)
+        self._failed_grasp = self._failed_grasp or (end, outcome)
+
+    def _result(self) -> Plan:
+        """The quickest plan that was found, else one whose grasp does not succeed, else how far it got."""
+        if (found := self._best or self._failed_grasp) is None:
+            nearest = min(self._left, key=lambda node: (self._left[node], node), default=ROOT)
+            return self._search.exhausted(nearest, "" if self._room else f"max_nodes={self._options.max_nodes}")
+        end, outcome = found
+        self._tree.close_others(end, "leads to no quicker plan" if self._best else "leads to no grasp")
+        return self._tree.plan(end, outcome.status, outcome.reason)
+
+
+def _least_time(action: Action) -> float:
+    """What a push takes at least (s): its path at full speed, without the way to its beginning and without settling."""
+    return time_path(action.path, action.path.rule(0).opening, 1.0).duration

@@ -1,0 +1,169 @@
+"""The kinodynamic planners: they solve what is easy, repeat bit by bit, keep to their budget, and their plans come true."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections import Counter
+from functools import cache
+
+import numpy as np
+import pytest
+
+from phframe.core import ROOT, ActionKind, Budget, OptionError, Phase, Plan, Scene, Shelf, Status, Task
+from phframe.kinodynamic.steered_decision import SteeredDecision
+from phframe.registry import Kind, create
+from phframe.runtime.planning_world import PlanningWorld
+from phframe.runtime.world import WorldSpec
+from tests.pushing.parts import scene_of
+
+EASY = scene_of((0.25, 0.3), (0.12, 0.3))
+"""One obstacle straight before a target that is not deep in the shelf."""
+LONE = scene_of((0.25, 0.3))
+PLANNERS = [pytest.param("grtc-kinodynamic", marks=pytest.mark.needs_ompl), "kinodynamic-rrt"]
+both = pytest.mark.parametrize("planner", PLANNERS)
+SEED = 3
+
+
+def task_in(world: PlanningWorld, seed: int = SEED, simulations: int | None = 3000) -> Task:
+    topology, goal = create(Kind.TOPOLOGY, "ripser"), create(Kind.GOAL, "retrieve")
+    rng, budget = np.random.default_rng(seed), Budget(simulations=simulations)
+    return world.task(world.scene.initial_state(), topology, rng, goal=goal, budget=budget)
+
+
+def planned(
+    planner: str, scene: Scene = EASY, seed: int = SEED, simulations: int | None = 3000, **options: object
+) -> Plan:
+    if planner == "grtc-kinodynamic":
+        pytest.importorskip("ompl")
+    with PlanningWorld(WorldSpec(scene)) as world:
+        plan: Plan = create(Kind.PLANNER, planner, options).plan(task_in(world, seed, simulations))
+        return plan
+
+
+@cache
+def usual(planner: str) -> Plan:
+    """The plan for the easy scene."""
+    return planned(planner)
+
+
+@pytest.mark.slow
+@both
+def test_an_easy_scene_is_solved_and_the_plan_comes_true_bit_by_bit(planner: str) -> None:
+    plan = usual(planner)
+    assert plan.status is Status.RETRIEVED, plan.reason
+    assert Counter(action.kind for action in plan.actions)[ActionKind.PUSH] >= 1
+    with PlanningWorld(WorldSpec(EASY)) as world:
+        state = EASY.initial_state()
+        for action, expected in zip(plan.actions, plan.expected, strict=True):
+            state = world.apply(state, action).state
+            assert state == expected
+    assert state.held == "target"
+
+
+@pytest.mark.slow
+@both
+def test_the_same_seed_gives_the_same_plan_and_another_seed_another(planner: str) -> None:
+    plan = usual(planner)
+    planned(planner, LONE, seed=5)
+    again = planned(planner)
+    assert again == plan
+    assert again.cost.simulated_actions == plan.cost.simulated_actions
+    assert planned(planner, seed=SEED + 1) != plan
+
+
+IN_ANOTHER = """
+import json, sys
+from tests.planners.test_kinodynamic import planned, digest
+print(json.dumps(digest(planned(sys.argv[1]))))
+"""
+
+
+def digest(plan: Plan) -> list[object]:
+    """All that a plan says that another process can be asked for."""
+    poses = [action.path.poses.tolist() for action in plan.actions]
+    return [plan.status, plan.cost.simulated_actions, len(plan.tree.nodes) if plan.tree else 0, poses]
+
+
+@pytest.mark.slow
+@both
+def test_two_processes_come_to_the_same_plan(planner: str) -> None:
+    plan = usual(planner)
+    environment = {**os.environ, "PYTHONHASHSEED": "4711", "PYTHONPATH": os.pathsep.join(sys.path)}
+    done = subprocess.run([sys.executable, "-c", IN_ANOTHER, planner], env=environment, check=True, capture_output=True)
+    assert json.loads(done.stdout) == digest(plan)
+
+
+@both
+@pytest.mark.parametrize("limit", [0, 1, 30])
+def test_no_more_is_simulated_than_allowed(planner: str, limit: int) -> None:
+    plan = planned(planner, simulations=limit)
+    assert (plan.status, plan.cost.simulated_actions) == (Status.TIMEOUT, limit)
+    assert f"{limit} simulated actions" in plan.reason
+
+
+@both
+def test_what_cannot_be_grasped_is_a_result_that_says_why(planner: str) -> None:
+    narrow = scene_of((0.4, 0.1), (0.2, 0.1), shelf=Shelf(0.6, 0.2))
+    plan = planned(planner, narrow)
+    assert (plan.status, plan.actions) == (Status.FAILED, ())
+    assert "half_width" in plan.reason
+
+
+@pytest.mark.needs_ompl
+def test_a_world_that_cannot_be_steered_is_said_to_be_none() -> None:
+    pytest.importorskip("ompl")
+    with PlanningWorld(WorldSpec(EASY)) as world:
+        steered = task_in(world)
+        task = Task(
+            scene=EASY,
+            start=steered.start,
+            goal=steered.goal,
+            arm=steered.arm,
+            topology=create(Kind.TOPOLOGY, "ripser"),
+            apply=world.apply,
+            rng=steered.rng,
+        )
+        plan = create(Kind.PLANNER, "grtc-kinodynamic").plan(task)
+    assert plan.status is Status.FAILED
+    assert "cannot be steered" in plan.reason
+
+
+@pytest.mark.slow
+@pytest.mark.needs_ompl
+def test_grtc_says_what_its_searches_came_to() -> None:
+    plan = planned("grtc-kinodynamic", controls=60, attempts=1)
+    assert plan.tree is not None
+    pushes = [node for node in plan.tree.nodes[ROOT + 1 :] if node.action and node.action.kind is ActionKind.PUSH]
+    assert pushes
+    for node in pushes:
+        decision = node.decision
+        assert isinstance(decision, SteeredDecision)
+        assert decision.moved == "o0"
+        assert 0 < decision.controls <= 120
+        assert decision.drift is not None
+        assert 0.0 <= decision.drift < 0.1
+        assert node.action is not None
+        assert node.action.path.phases[-1] is Phase.RETREAT
+
+
+@pytest.mark.slow
+def test_the_tree_keeps_every_push_that_was_tried_and_why_it_was_left() -> None:
+    plan = planned("kinodynamic-rrt", actions=6)
+    assert plan.tree is not None
+    nodes = plan.tree.nodes[ROOT + 1 :]
+    assert len(nodes) == plan.cost.simulated_actions
+    tried = [node for node in nodes if node.action and node.action.kind is ActionKind.PUSH]
+    parents = Counter(node.parent for node in tried)
+    assert all(count % 6 == 0 for count in parents.values())
+    assert any("nearer" in node.closed for node in tried)
+    assert not any(node.closed for node in plan.tree.path)
+    motions = [node.motion for node in plan.tree.path]
+    assert all(motion is not None and motion.complete and motion.settled for motion in motions)
+
+
+def test_impossible_options_are_refused() -> None:
+    with pytest.raises(OptionError, match="actions"):
+        create(Kind.PLANNER, "kinodynamic-rrt", {"actions": 0})
