@@ -88,6 +88,29 @@ def find_corridor(target: FloatArray, shelf: Shelf, half_width: float) -> Corrid
     return Corridor(np.zeros(2), 0.0, y, half_width, 0.0, depth)
 
 
+def with_room(corridor: Corridor, shelf: Shelf, centers: FloatArray, radii: FloatArray) -> Corridor:
+    """A corridor, or the angled one in its place where there is no room between a straight one and the wall next to it.
+
+    What stands in a straight strip on that wall's side could only be pushed where it is not outside the strip yet.
+
+    Args:
+        corridor: As Algorithm 1 has it.
+        shelf: The shelf.
+        centers: Of what is in the strip ``(k, 2)``, in the shelf frame (m).
+        radii: Of the same ``(k,)`` (m).
+    """
+    y, w = corridor.axis, corridor.half_width
+    if corridor.beside is not None:
+        return corridor
+    north = y > shelf.width / 2.0
+    room = (shelf.width - y if north else y) - w
+    at_wall = (centers[:, 1] >= y) if north else (centers[:, 1] <= y)
+    if not (at_wall & (radii > room)).any():
+        return corridor
+    angled = _angled(corridor.end, y if north else shelf.width - y, w, 0.0 if north else shelf.width)
+    return angled if isinstance(angled, Corridor) else corridor
+
+
 def _angled(x: float, y: float, w: float, corner: float) -> Corridor | Infeasible:
     """Along the line through the mouth corner that passes the target at distance w: phi = atan2(y, x) - asin(w / |t|).
 

@@ -10,6 +10,8 @@ class Deviation(StrEnum):
 
     FALLBACK_RADIUS = "fallback radius"
     """No radius is usable, so the threshold h itself is taken."""
+    ANGLED_EARLY = "angled corridor near a wall"
+    """The target is farther than w from the wall, but what is in the straight corridor has no room beside it there."""
     SWEEP_CLAMPED = "sweep clamped to the wall"
     """The arm's true outline would meet a wall before its leading side reaches the corridor's edge."""
     LANE_CLAMPED = "lane clamped to the wall"

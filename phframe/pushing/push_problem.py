@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from phframe.core import FloatArray, IntArray, State
 from phframe.pushing.corridor import Corridor
+from phframe.pushing.deviation import Deviation
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -18,6 +19,7 @@ class PushProblem:
         members: Rows of the obstacles that count, ``(k,)``.
         local: Their centres ``(k, 2)`` in the corridor frame (m).
         blockers: Ids of those that count although they are not in the corridor: they block the grasp.
+        deviations: Those that led to the corridor.
     """
 
     state: State
@@ -25,3 +27,4 @@ class PushProblem:
     members: IntArray
     local: FloatArray
     blockers: tuple[str, ...] = ()
+    deviations: tuple[Deviation, ...] = ()

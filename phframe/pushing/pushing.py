@@ -20,7 +20,7 @@ from phframe.core import (
     yaw_of,
 )
 from phframe.geometry.arm_view import ArmView
-from phframe.pushing.corridor import corridor_half_width, find_corridor
+from phframe.pushing.corridor import Corridor, corridor_half_width, find_corridor, with_room
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.grasp import Grasp, grasp_action
 from phframe.pushing.grouping import closest_component, merged_labels
@@ -70,10 +70,20 @@ class Pushing:
         corridor = find_corridor(state.positions[row], scene.shelf, self.half_width)
         if isinstance(corridor, Infeasible):
             return corridor
-        counts = corridor.contains(state.positions) | np.isin(scene.ids, list(blockers))
-        counts[row] = False
-        members = np.flatnonzero(counts & state.on_board)
-        return PushProblem(state, corridor, members, corridor.to_local(state.positions[members]), tuple(blockers))
+        chosen = self._with_room(corridor, state) if self.options.sweeps == "fitted" else corridor
+        members = self._members(chosen, state, blockers)
+        deviations = () if chosen is corridor else (Deviation.ANGLED_EARLY,)
+        local = chosen.to_local(state.positions[members])
+        return PushProblem(state, chosen, members, local, tuple(blockers), deviations)
+
+    def _with_room(self, corridor: Corridor, state: State) -> Corridor:
+        inside = self._members(corridor, state)
+        return with_room(corridor, self.scene.shelf, state.positions[inside], self._radii[inside])
+
+    def _members(self, corridor: Corridor, state: State, blockers: Sequence[str] = ()) -> IntArray:
+        counts = corridor.contains(state.positions) | np.isin(self.scene.ids, list(blockers))
+        counts[self.scene.target_index] = False
+        return np.flatnonzero(counts & state.on_board)
 
     def diagram(self, problem: PushProblem) -> PersistenceDiagram:
         """The persistence diagram of the obstacles that count, by their landmarks: of cylinders, the centres."""
@@ -152,7 +162,7 @@ class Pushing:
                 yield (
                     PushDecision(
                         "a group of obstacles",
-                        push.deviations,
+                        (*problem.deviations, *push.deviations),
                         corridor=corridor,
                         members=members,
                         chosen=names,
@@ -164,8 +174,11 @@ class Pushing:
 
     def grasp(self, problem: PushProblem) -> Grasp | Infeasible:
         """The reach, grasp and withdrawal along the corridor, if the target can be got at without what was rejected."""
-        task = self.task
-        return grasp_action(self.scene, problem.state, problem.corridor, task.arm, self.options, task.rejects)
+        task, corridor = self.task, problem.corridor
+        found = grasp_action(self.scene, problem.state, corridor, task.arm, self.options, task.rejects)
+        if isinstance(found, Infeasible):
+            return found
+        return replace(found, deviations=(*problem.deviations, *found.deviations))
 
     def _generator(self, problem: PushProblem, chosen: IntArray) -> SweepGenerator:
         return SweepGenerator(
