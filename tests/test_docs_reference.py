@@ -20,6 +20,8 @@ from pydantic import BaseModel
 import phframe
 from phframe import testing
 from phframe.backends.articulated import JointEngine
+from phframe.bench.export.columns import COLUMNS
+from phframe.bench.export.formats import RESULT_FORMATS
 from phframe.cli import exit_codes
 from phframe.cli.listing_data import listing
 from phframe.cli.option_list import OptionRow, describe
@@ -309,3 +311,12 @@ def test_the_measured_table_is_about_the_suites_and_planners_there_are() -> None
 def test_every_method_of_an_engine_of_joints_is_explained() -> None:
     told = [name for row in table("docs/backends.md", "Its methods") for name in re.findall(r"\w+", row[0])]
     assert told == [name for name, member in vars(JointEngine).items() if callable(member) and not name.startswith("_")]
+
+
+def test_the_columns_of_a_benchs_results_are_documented() -> None:
+    rows = [
+        [each.name, f"{each.kind}{' or null' if each.optional else ''}", each.unit, each.meaning] for each in COLUMNS
+    ]
+    assert table("docs/json.md", "The results of a bench") == rows
+    text = text_of(DOCS / "json.md")
+    assert all(f"**`{name}`**" in text for name in RESULT_FORMATS)

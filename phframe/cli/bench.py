@@ -111,9 +111,6 @@ Accepted = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the summary, or the list, as JSON instead of a table.")]
 
-app.command("export", epilog="Example: phframe bench export runs/published --out published.csv")(export_results)
-app.command("merge", epilog="Example: phframe bench merge runs/monday runs/tuesday --out runs/both")(merge)
-
 
 @app.command("run", epilog="Example: phframe bench papallas --planner phia --planner 'ooa[margin=0.02]' --workers 2")
 def run(
@@ -179,3 +176,5 @@ def run(
 app.command("replay", epilog="Example: phframe bench replay runs/published vieira/simple-01 phia 0")(
     bench_replay.replay
 )
+app.command("export", epilog="Example: phframe bench export runs/published --out published.csv")(export_results)
+app.command("merge", epilog="Example: phframe bench merge runs/monday runs/tuesday --out runs/both")(merge)
