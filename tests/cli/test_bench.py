@@ -164,7 +164,7 @@ def test_other_versions_and_code_are_refused_until_they_are_accepted(
         (["vieira/z*"], "There is: vieira/basic"),
         (["random/9..1"], "random/0..99"),
         (["absent.yaml"], "absent.yaml: no such file"),
-        (["vieira", "--planner", "phai"], "Did you mean 'phia'?"),
+        (["vieira", "--planner", "phiaa"], "Did you mean 'phia'?"),
         (["vieira", "--planner", "phia[margn=1]"], "Did you mean 'margin'?"),
         (["vieira", "--planner", "phia[margin]"], "write name[key=value"),
         (["vieira", "--planner", "phia", "--planner", "phia"], "keep one"),
@@ -212,6 +212,17 @@ def test_a_damaged_file_of_results_is_refused_and_stays(invoke: Invoke, content:
     assert result.stderr.startswith(f"error: cannot use here/{FILE}: file is not a database")
     assert result.stderr.count("\n") == 1
     assert Path("here", FILE).read_bytes() == content
+
+
+@pytest.mark.slow
+def test_where_no_process_can_be_started_that_is_one_line(run: Run, tmp_path: Path) -> None:
+    long = tmp_path / ("x" * 100)
+    long.mkdir()
+    result = run(*SMALL, *HERE, "--quiet", TMPDIR=str(long))
+    assert result.returncode == 2
+    assert result.stderr == (
+        "error: cannot start the process of a trial: AF_UNIX path too long. Set TMPDIR to a directory with a shorter path.\n"
+    )
 
 
 @pytest.mark.slow
