@@ -15,6 +15,7 @@ import typer
 import phframe
 from phframe import testing
 from phframe.bench.meters.__main__ import command_line
+from phframe.bench.selection import select_problems
 from phframe.cli.export_formats import FORMATS
 from phframe.cli.main import app
 from phframe.cli.option_list import describe
@@ -157,12 +158,12 @@ def check_phframe(words: list[str]) -> None:
     if words[0].startswith("-"):
         assert words[0] in {spelling for parameter in top.params for spelling in parameter.opts}
         return
-    command, rest = top.commands[words[0]], words[1:]
-    while hasattr(command, "commands"):
-        command, rest = command.commands[rest[0]], rest[1:]
+    command, rest = leaf(top.commands[words[0]], words[1:])
     with command.make_context(words[0], list(rest)) as context:
         given = dict(context.params)
-    if words[0] == "solve":
+    if command.name == "run":
+        check_bench(given)
+    elif words[0] == "solve":
         check_request(given)
     elif words[0] == "export":
         assert given["format_name"] is None or given["format_name"] in FORMATS
@@ -184,6 +185,20 @@ def check_listed(title: str, given: dict[str, Any]) -> None:
         return
     kind = {"scenes": Kind.SCENES, "topology": Kind.TOPOLOGY}.get(title)
     describe(kind or Kind(title.removesuffix("s")), given["name"])
+
+
+def leaf(command: Any, rest: list[str]) -> tuple[Any, list[str]]:
+    """The command that the words of a group lead to, and the words after it."""
+    while hasattr(command, "commands"):
+        rest = command.with_default(rest) if hasattr(command, "with_default") else rest
+        command, rest = command.commands[rest[0]], rest[1:]
+    return command, rest
+
+
+def check_bench(given: dict[str, Any]) -> None:
+    assert select_problems(given["suites"], parse_options(given["option"] or ())["scenes"])
+    for planner in given["planner"] or ():
+        create(Kind.PLANNER, planner)
 
 
 def check_request(given: dict[str, Any]) -> None:

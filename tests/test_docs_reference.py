@@ -20,6 +20,8 @@ from pydantic import BaseModel
 import phframe
 from phframe import testing
 from phframe.backends.articulated import JointEngine
+from phframe.bench.export.columns import COLUMNS
+from phframe.bench.export.formats import RESULT_FORMATS
 from phframe.cli import exit_codes
 from phframe.cli.listing_data import listing
 from phframe.cli.option_list import OptionRow, describe
@@ -38,6 +40,8 @@ from tests.markdown import DOCS, PAGES, README, ROOT, blocks, column, each_page,
 PLANNERS = [each.name for each in builtin.EXTENSIONS if each.kind is Kind.PLANNER]
 GRTC = ("grtc-straight", "guided")
 """Planners that have options of their own, in one table."""
+SEARCHES = ("phis", "phim")
+"""Planners with the family's options and further ones, in a table of their own."""
 KINODYNAMIC = ("grtc-kinodynamic", "kinodynamic-rrt")
 """Planners whose options are told where they are described."""
 JSON_TYPES: Mapping[str, Any] = {
@@ -174,7 +178,8 @@ def option_rows(planner: str) -> list[list[str]]:
     if planner in KINODYNAMIC:
         return table("docs/planners.md", f"`{planner}`")
     if planner not in GRTC:
-        return table("docs/planners.md", "Options")
+        own = table("docs/planners.md", f"`{planner}`") if planner in SEARCHES else []
+        return table("docs/planners.md", "Options") + own
     rows = table("docs/planners.md", "Options of `grtc-straight` and `guided`")
     return [row for row in rows if not re.match(r"`?(grtc-straight|guided)`?:", row[3]) or planner in row[3]]
 
@@ -306,3 +311,12 @@ def test_the_measured_table_is_about_the_suites_and_planners_there_are() -> None
 def test_every_method_of_an_engine_of_joints_is_explained() -> None:
     told = [name for row in table("docs/backends.md", "Its methods") for name in re.findall(r"\w+", row[0])]
     assert told == [name for name, member in vars(JointEngine).items() if callable(member) and not name.startswith("_")]
+
+
+def test_the_columns_of_a_benchs_results_are_documented() -> None:
+    rows = [
+        [each.name, f"{each.kind}{' or null' if each.optional else ''}", each.unit, each.meaning] for each in COLUMNS
+    ]
+    assert table("docs/json.md", "The results of a bench") == rows
+    text = text_of(DOCS / "json.md")
+    assert all(f"**`{name}`**" in text for name in RESULT_FORMATS)

@@ -85,7 +85,7 @@ def _again(spec: RunSpec, report: RunOutput, directory: RunDirectory) -> dict[st
     """What comes of it now, as the fields of a result."""
     try:
         carried = carry_out(spec, report, directory)
-    except (InputError, KeyboardInterrupt):
+    except InputError:
         raise
     except Exception as error:  # noqa: BLE001 - it is what the trial is about
         return {"end": TrialEnd.ERROR, "reason": " ".join(described(error).split())}

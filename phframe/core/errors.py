@@ -63,7 +63,7 @@ class UnknownNameError(InputError):
     """
 
     def __init__(self, kind: str, name: str, known: Iterable[str], hint: str = "") -> None:
-        self.kind, self.name, self.known, self.hint = kind, name, tuple(sorted(known)), hint
+        self.kind, self.name, self.known, self.hint = kind, name, tuple(sorted(map(str, known))), hint
         super().__init__(self._message())
 
     def _message(self) -> str:

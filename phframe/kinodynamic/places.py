@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -49,7 +50,8 @@ def is_free(scene: Scene, state: State, row: int, place: FloatArray) -> bool:
 
 
 def _drawn(scene: Scene, start: FloatArray, radius: float, rng: np.random.Generator, *, anywhere: bool) -> FloatArray:
-    """Evenly within a square around the object, or anywhere on the board."""
+    """Evenly within the disc around the object, or anywhere on the board."""
     if anywhere:
         return np.asarray(rng.uniform([radius, radius], [scene.shelf.depth - radius, scene.shelf.width - radius]))
-    return np.asarray(start + rng.uniform(-NEAR, NEAR, 2))
+    angle, distance = rng.uniform(-math.pi, math.pi), NEAR * math.sqrt(rng.random())
+    return np.asarray(start + distance * np.array([math.cos(angle), math.sin(angle)]))

@@ -20,7 +20,7 @@ class PHISOptions(PushingOptions):
     Attributes:
         directions: Of every group: ``paper``: the best sweep, in the paper's direction where that fits; ``both``: the best
             one in each.
-        max_nodes: Nodes of the search tree after which the best plan found so far counts.
+        max_nodes: Nodes of the search tree after which no further push is tried; the best plan so far counts.
     """
 
     directions: Literal["paper", "both"] = "paper"

@@ -26,5 +26,6 @@ def _step(before: SearchNode, after: SearchNode) -> Step:
     assert after.action is not None, "every node but the root says what led to it"
     opening = 0.0 if before.state.arm is None else before.state.arm.opening
     motion, decision = after.motion or Motion(0.0), after.decision or Decision()
-    trajectory = time_path(after.action.path, opening, motion.largest_force)  # the limit itself is not told
+    limit = motion.largest_force or 1.0  # the limit itself is not told; any will do for what met nothing
+    trajectory = time_path(after.action.path, opening, limit)
     return Step(after.action, trajectory, before.state, after.state, None, motion, decision, 0)

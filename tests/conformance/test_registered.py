@@ -40,7 +40,7 @@ from phframe.testing import (
     simulated_tasks,
 )
 
-DETERMINISTIC = ("phia", "ooa")
+DETERMINISTIC = ("phia", "ooa", "phis", "phim")
 """Planners that promise that the order of objects does not matter."""
 
 BRIEFLY = {

@@ -19,6 +19,7 @@ from phframe.core import (
     UnknownNameError,
     errors,
 )
+from phframe.registry import Kind
 from phframe.testing import ConformanceError, Failure, Fault
 
 EXAMPLES = [
@@ -52,6 +53,10 @@ def test_every_error_has_the_one_root() -> None:
         (EXAMPLES[1], "alone"),
         (EXAMPLES[2], "no planner named 'phya'. Did you mean 'phia'? There is: ooa, phia. Install more."),
         (UnknownNameError("arm", "zzz", ["planar"]), "no arm named 'zzz'. There is: planar."),
+        (
+            UnknownNameError("kind", "plannr", Kind),
+            f"no kind named 'plannr'. Did you mean 'planner'? There is: {', '.join(sorted(Kind))}.",
+        ),
         (UnknownNameError("arm", "zzz", []), "no arm named 'zzz'. There is no arm at all."),
         (EXAMPLES[3], "backend 'mujoco' needs mujoco, which is not installed. pip install 'phframe[mujoco]'"),
     ],

@@ -27,8 +27,7 @@ def test_a_place_touches_nothing_and_is_as_far_as_it_should_be(seed: int) -> Non
     assert np.linalg.norm(others - place, axis=1).min() >= 2 * RADIUS
     assert (place >= RADIUS).all()
     assert (place <= 0.6 - RADIUS).all()
-    assert np.linalg.norm(place - state.positions[ROW]) >= 0.2
-    assert np.abs(place - state.positions[ROW]).max() <= 0.3
+    assert 0.2 <= np.linalg.norm(place - state.positions[ROW]) <= 0.3
     assert place[1] <= 0.4
 
 

@@ -79,7 +79,7 @@ def test_the_value_of_a_node_is_the_mean_reward_of_the_pushes_that_led_there_or_
             below = [reward(name, tree, each) for each in pushes_below(tree, row)]
             assert node.value == pytest.approx(np.mean(below))
             rewards |= set(below)
-    assert len(rewards) >= 3
+    assert len(rewards) >= 2
 
 
 @pytest.mark.parametrize("exploration", [0.0, 1.0, 100.0])

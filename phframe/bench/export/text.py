@@ -48,5 +48,7 @@ def _json_value(value: Any) -> Any:
 def _cell(value: Any) -> str:
     if value is None:
         return ""
-    text = value if isinstance(value, str) else json.dumps(value) if isinstance(value, bool | dict) else repr(value)
-    return '"' + text.replace('"', '""') + '"' if _QUOTED.search(text) else text
+    if isinstance(value, str | dict):
+        text = value if isinstance(value, str) else json.dumps(value)
+        return '"' + text.replace('"', '""') + '"' if _QUOTED.search(text) else text
+    return json.dumps(value) if isinstance(value, bool) else repr(value)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import signal
 from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,8 +16,8 @@ from phframe.bench.bench_plan import BenchPlan
 from phframe.bench.limits import TrialLimits
 from phframe.bench.merge_conflicts import result_differences
 from phframe.bench.outcome import result_of
-from phframe.bench.schedulers.dask_ import ATTEMPTS, ClusterError, cluster_scheduler, run_on_cluster
-from phframe.bench.schedulers.on_worker import UnfitWorkerError, WorkerSpec
+from phframe.bench.schedulers.dask_ import ClusterError, cluster_scheduler, run_on_cluster
+from phframe.bench.schedulers.on_worker import UnfitWorkerError, WorkerSpec, examine
 from phframe.bench.session import BenchSession
 from phframe.bench.settings import BenchSettings
 from phframe.bench.store import ResultStore
@@ -29,6 +31,7 @@ pytestmark = [pytest.mark.needs_cluster, pytest.mark.slow]
 pytest.importorskip("distributed")
 
 LIMITS = TrialLimits(60.0, 4096)
+MAY_START = {"DASK_DISTRIBUTED__WORKER__DAEMON": "False"}
 PLANNERS = """
 import multiprocessing, os, signal
 from phframe.core import Options, Planner
@@ -45,7 +48,9 @@ class KillsItsWorker(Planner[Options]):
 
 @pytest.fixture(scope="module")
 def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[DaskCluster]:
-    with dask_cluster(tmp_path_factory.mktemp("cluster"), 2) as started:
+    """A worker of each kind: without a nanny, and with one and the setting that lets it start processes."""
+    with dask_cluster(tmp_path_factory.mktemp("cluster"), 1) as started:
+        started.start_worker("--nanny", **MAY_START)
         yield started
 
 
@@ -65,6 +70,13 @@ def results_on(cluster: DaskCluster, wanted: Sequence[Trial]) -> Generator[Trial
     with closing(run_on_cluster(cluster.address, wanted, WorkerSpec.of(look, LIMITS))) as endings:
         for trial, ending in endings:
             yield result_of(trial, ending, LIMITS)[0]
+
+
+def refusal(spec: WorkerSpec, told: Any) -> None:
+    try:
+        told.put(repr(examine(spec)))
+    except UnfitWorkerError as error:
+        told.put(str(error))
 
 
 def stored(directory: Path) -> list[TrialResult]:
@@ -118,35 +130,39 @@ def test_workers_of_another_version_are_refused_at_once_and_when_they_come(clust
         stranger.wait()
 
 
-def test_a_worker_that_may_not_start_processes_is_refused_with_the_setting(tmp_path: Path) -> None:
-    with dask_cluster(tmp_path, 0) as own:
-        own.start_worker("--nanny")
-        with pytest.raises(UnfitWorkerError, match="DASK_DISTRIBUTED__WORKER__DAEMON=False"):
-            next(results_on(own, trials(1)))
-        own.workers[0].terminate()
-        own.workers[0].wait(60)
-        own.start_worker("--nanny", DASK_DISTRIBUTED__WORKER__DAEMON="False")
-        assert len(list(results_on(own, trials(1)))) == 1
+def test_a_worker_that_may_not_start_processes_is_refused_with_the_setting() -> None:
+    context = multiprocessing.get_context("spawn")
+    told = context.SimpleQueue()
+    process = context.Process(target=refusal, args=(WorkerSpec.of(look, LIMITS), told), daemon=True)
+    process.start()
+    process.join()
+    assert "DASK_DISTRIBUTED__WORKER__DAEMON=False" in told.get()
+    told.close()
 
 
 def test_a_trial_that_takes_its_workers_down_is_given_up_and_told(
     tmp_path: Path, planners: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES", "0")
-    with dask_cluster(tmp_path, ATTEMPTS) as own:
-        with pytest.raises(ClusterError, match="1 trials have no result"):
+    monkeypatch.setattr("phframe.bench.schedulers.dask_.ATTEMPTS", 2)
+    with dask_cluster(tmp_path, 0) as own:
+        own.start_worker("--nanny", **MAY_START)
+        with pytest.raises(ClusterError, match=r"1 trials have no result.* 2 times"):
             list(results_on(own, trials(1, f"{planners}:KillsItsWorker")))
-        assert [worker.wait(20) for worker in own.workers] == [-signal.SIGKILL] * ATTEMPTS
 
 
-def test_a_scheduler_that_goes_away_is_told(tmp_path: Path) -> None:
-    with dask_cluster(tmp_path, 1) as own:
-        ran = results_on(own, trials(60))
-        next(ran)
+def test_a_scheduler_that_goes_away_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("phframe.bench.schedulers.dask_.PATIENCE", 2.0)
+    with dask_cluster(tmp_path, 0) as own:
         assert own.scheduler is not None
-        own.scheduler.kill()
+        wanted = iter(trials(3))
+
+        def last_is_submitted() -> Iterator[Trial]:
+            yield from wanted
+            own.scheduler.kill()  # type: ignore[union-attr]
+
         with pytest.raises(ClusterError, match="start the bench again"):
-            list(ran)
+            list(run_on_cluster(own.address, last_is_submitted(), WorkerSpec.of(look, LIMITS)))
 
 
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "nonsense://x:1", ""])

@@ -1,0 +1,360 @@
+"""``phframe bench``: it runs, goes on where it was, and refuses what is another bench or none."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+from phframe.bench.bench_plan import BenchPlan
+from phframe.bench.session import BenchSession
+from phframe.bench.store import FILE, ResultStore
+from phframe.bench.trial_result import TrialEnd
+from phframe.cli.main import app
+from tests.bench.benches import lives, misbehaving, noted, settings
+from tests.cli.conftest import Invoke, Run, Spawn, until
+
+SMALL = ("bench", "vieira/simple-0[123]", "--planner", "phia", "--planner", "ooa")
+HERE = ("--out", "here")
+LIMITED = """
+import resource
+resource.setrlimit(resource.RLIMIT_FSIZE, (88 * 1024, 88 * 1024))
+from phframe.cli.main import main
+main()
+"""
+"""The command with no room for larger files than that."""
+TIMES = {
+    "planning_time",
+    "topology_time",
+    "simulation_time",
+    "motion_planning_time",
+    "first_solution_time",
+    "wall_time",
+}
+OWN = {"started", "peak_memory", "environment"}
+"""Of one run alone."""
+
+
+def rows(directory: Path | str) -> list[dict[str, Any]]:
+    """All results, without what differs from run to run."""
+    with ResultStore.open(directory) as store:
+        results = list(store.results())
+    names = [name for name in type(results[0]).__slots__ if name not in TIMES | OWN]
+    return [{name: getattr(result, name) for name in names} for result in results]
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A bench that was run undisturbed."""
+    folder = tmp_path_factory.mktemp("finished")
+    plan = BenchPlan.of(settings("vieira/simple-0[123]", planners=("phia", "ooa")))
+    with BenchSession(folder, plan) as session:
+        assert len(list(session.run(range(6), session.local(2)))) == 6
+    return folder
+
+
+@pytest.mark.slow
+def test_it_runs_and_goes_on_and_does_nothing_twice(invoke: Invoke, finished: Path) -> None:
+    first = invoke(*SMALL, *HERE, "--filter", "phia", "--json")
+    assert (first.exit_code, first.stderr) == (0, "results in here: 3 of 6 trials to run\n")
+    (line,) = json.loads(first.stdout)["summary"]
+    assert (line["planner"], line["suite"], line["trials"], line["retrieved"], line["failures"]) == (
+        "phia",
+        "vieira",
+        3,
+        3,
+        0,
+    )
+    rest = invoke(*SMALL, *HERE)
+    assert rest.stderr == "results in here: 3 of 6 trials to run\n"
+    assert [row.split()[:4] for row in rest.stdout.splitlines()[1:]] == [
+        ["ooa", "vieira", "3", "3"], ["phia", "vieira", "3", "3"],
+    ]  # fmt: skip
+    assert rows("here") == rows(finished)
+    assert "0 of 6 trials to run" in invoke(*SMALL, *HERE).stderr
+    assert sorted(path.name for path in Path("here").iterdir()) == ["lock", FILE]
+
+
+@pytest.mark.slow
+def test_without_a_directory_a_new_one_is_made(invoke: Invoke) -> None:
+    result = invoke("bench", "run", "vieira/simple-01", "--quiet")
+    assert (result.exit_code, result.stdout, result.stderr) == (0, "", "")
+    (folder,) = Path("runs").iterdir()
+    assert folder.name.endswith("-bench-vieira-simple-01")
+    assert len(rows(folder)) == 1
+
+
+@pytest.mark.slow
+def test_failed_trials_make_the_exit_code_1_and_can_be_run_again(invoke: Invoke) -> None:
+    words = ("bench", "vieira/simple-01", "--planner", misbehaving("Exits"), "--planner", "phia", *HERE)
+    assert invoke(*words).exit_code == 1
+    assert "0 of 2 trials" in invoke(*words).stderr
+    assert "1 of 2 trials" in invoke(*words, "--retry-failed").stderr
+    assert "0 of 2 trials" in invoke(*words, "--retry-failed", "--filter", "memory").stderr
+    assert "1 of 2 trials" in invoke(*words, "--retry-failed", "--filter", "exit code 3").stderr
+
+
+def test_the_list_says_what_is_done_and_runs_nothing(invoke: Invoke, finished: Path, workplace: Path) -> None:
+    plain = invoke(*SMALL, "--list", "--json")
+    assert [each["done"] for each in json.loads(plain.stdout)["trials"]] == [False] * 6
+    assert list(workplace.iterdir()) == []
+    listed = invoke(*SMALL, "--list", "--out", finished, "--filter", "*simple-0?", "--planner", "phia[margin=0.02]")
+    lines = [line.split() for line in listed.stdout.splitlines()]
+    assert lines[0][:2] == ["trial", "problem"]
+    assert [line[4:] for line in lines[1:4]] == [["finished", "retrieved"], ["finished", "retrieved"], ["to", "do"]]
+
+
+@pytest.mark.parametrize(
+    ("words", "said", "flags"),
+    [
+        (["vieira/simple-0[12]", "--planner", "phia", "--planner", "ooa"], "missing: vieira/simple-03", "suites"),
+        (["vieira/simple-0[123]", "--planner", "phia"], "missing: ooa", "planners"),
+        ([*SMALL[1:], "--option", "backend.step=0.002"], "backend.step was none, is 0.002", "options"),
+        ([*SMALL[1:], "--time-limit", "9"], "time_limit was 300.0, is 9.0", "options"),
+        ([*SMALL[1:], "--seeds", "2"], "seeds was 1, is 2", "options"),
+    ],
+)
+def test_another_bench_is_refused_with_the_flag_that_accepts_it(
+    invoke: Invoke, finished: Path, words: list[str], said: str, flags: str
+) -> None:
+    before = rows(finished)
+    result = invoke("bench", *words, "--out", finished)
+    assert result.exit_code == 2
+    assert result.stderr.count("\n") == 1
+    assert f"{said}" in result.stderr
+    assert f"--accept {flags};" in result.stderr
+    assert rows(finished) == before
+
+
+def test_other_versions_and_code_are_refused_until_they_are_accepted(
+    invoke: Invoke, finished: Path, tmp_path: Path
+) -> None:
+    copy = tmp_path / "copy"
+    copy.mkdir()
+    (copy / FILE).write_bytes((finished / FILE).read_bytes())
+    with ResultStore.open(copy, read_only=False) as store:
+        ((number, here),) = store.environments().items()
+        content = here.to_json().replace(f'"pymunk": "{here.versions["pymunk"]}"', '"pymunk": "0.1"')
+        content = content.replace(here.code["phframe"], "0" * 16)
+        store._connection.execute("UPDATE environments SET id = 'old', content = ? WHERE id = ?", (content, number))
+    refused = invoke(*SMALL, "--out", copy)
+    assert refused.exit_code == 2
+    assert "versions: pymunk was 0.1, is 7" in refused.stderr
+    assert "code: the source of phframe is another one" in refused.stderr
+    assert "--accept versions --accept code;" in refused.stderr
+    assert invoke(*SMALL, "--out", copy, "--accept", "versions").exit_code == 2
+    assert invoke(*SMALL, "--out", copy, "--accept", "versions", "--accept", "code").exit_code == 0
+    assert invoke(*SMALL, "--out", copy).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["viera"], "Did you mean 'vieira'?"),
+        (["vieira/basik"], "Did you mean 'vieira/basic'?"),
+        (["vieira/z*"], "There is: vieira/basic"),
+        (["random/9..1"], "random/0..99"),
+        (["absent.yaml"], "absent.yaml: no such file"),
+        (["vieira", "--planner", "phiaa"], "Did you mean 'phia'?"),
+        (["vieira", "--planner", "phia[margn=1]"], "Did you mean 'margin'?"),
+        (["vieira", "--planner", "phia[margin]"], "write name[key=value"),
+        (["vieira", "--planner", "phia", "--planner", "phia"], "keep one"),
+        (["vieira", "--planner", "./absent.py:Mine"], "absent.py"),
+        (["vieira", "--option", "backnd.step=1"], "Did you mean 'backend'?"),
+        (["vieira", "--backend", "pymonk"], "Did you mean 'pymunk'?"),
+        (["vieira", "--workers", "0"], "greater than or equal to 1"),
+        (["vieira", "--seeds", "0"], "greater than or equal to 1"),
+        (["vieira", "--memory-limit", "1"], "greater than or equal to 256"),
+        (["vieira", "--trial-limit", "inf"], "not a finite number"),
+        (["vieira", "--accept", "version"], "Did you mean 'versions'?"),
+        (["--planner", "phia"], "missing argument 'SUITE...'"),
+        (["replay", "absent", "k"], "holds no bench"),
+        (["replay", "absent", "a", "b"], "three words"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_bad_input_is_one_clear_line_before_anything_runs(
+    invoke: Invoke, workplace: Path, words: list[str], said: str
+) -> None:
+    result = invoke("bench", *words)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert result.stderr.startswith("error: ")
+    assert result.stderr.count("\n") == 1
+    assert said in result.stderr
+    assert list(workplace.iterdir()) == []
+
+
+def test_a_directory_of_something_else_is_refused(invoke: Invoke) -> None:
+    Path("mine").mkdir()
+    Path("mine/thesis.tex").write_text("years of work")
+    result = invoke("bench", "vieira", "--out", "mine")
+    assert result.exit_code == 2
+    assert "--out mine is not empty" in result.stderr
+    assert [each.name for each in Path("mine").iterdir()] == ["thesis.tex"]
+
+
+@pytest.mark.parametrize("content", [b"rubbish", b"SQLite format 3\0" + b"rubbish" * 2000])
+def test_a_damaged_file_of_results_is_refused_and_stays(invoke: Invoke, content: bytes) -> None:
+    Path("here").mkdir()
+    Path("here", FILE).write_bytes(content)
+    result = invoke(*SMALL, *HERE)
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"error: cannot use here/{FILE}: file is not a database")
+    assert result.stderr.count("\n") == 1
+    assert Path("here", FILE).read_bytes() == content
+
+
+@pytest.mark.slow
+def test_where_no_process_can_be_started_that_is_one_line(run: Run, tmp_path: Path) -> None:
+    long = tmp_path / ("x" * 100)
+    long.mkdir()
+    result = run(*SMALL, *HERE, "--quiet", TMPDIR=str(long))
+    assert result.returncode == 2
+    assert result.stderr == (
+        "error: cannot start the process of a trial: AF_UNIX path too long. Set TMPDIR to a directory with a shorter path.\n"
+    )
+
+
+@pytest.mark.slow
+def test_two_benches_are_not_at_work_in_one_directory(invoke: Invoke, finished: Path) -> None:
+    plan = BenchPlan.of(settings("vieira/simple-0[123]", planners=("phia", "ooa")))
+    with BenchSession(finished, plan):
+        result = invoke(*SMALL, "--out", finished)
+    assert result.exit_code == 2
+    assert "another phframe bench is at work in" in result.stderr
+
+
+@pytest.mark.slow
+def test_where_the_disk_is_full_what_was_stored_stays_and_the_rest_is_run_later(run: Run, finished: Path) -> None:
+    limited = (sys.executable, "-c", LIMITED, *SMALL, *HERE)
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
+    full = subprocess.run(limited, capture_output=True, text=True, check=False, timeout=300, env=environment)
+    assert full.returncode == 2
+    assert full.stderr.splitlines()[-1].startswith(f"error: cannot use here/{FILE}: disk I/O error")
+    before = rows("here")
+    assert 0 < len(before) < 6
+    assert run(*SMALL, *HERE).returncode == 0
+    assert [row for row in before if row in rows("here")] == before
+    assert rows("here") == rows(finished)
+
+
+@pytest.mark.slow
+def test_a_trial_is_repeated_and_compared(invoke: Invoke, finished: Path) -> None:
+    same = invoke("bench", "replay", finished, "vieira/simple-02", "ooa", "0", "--no-rerun")
+    assert (same.exit_code, same.stdout) == (0, "the same: retrieved, pushes 3\n")
+    (folder,) = Path("runs").iterdir()
+    assert {path.name for path in folder.iterdir()} == {"episode.json", "summary.json"}
+    with ResultStore.open(finished) as store:
+        (result,) = store.find("vieira/simple-01", "phia", "0")
+        key, pushes = result.key, result.pushes
+    lie = Path("lie")
+    lie.mkdir()
+    (lie / FILE).write_bytes((finished / FILE).read_bytes())
+    with ResultStore.open(lie, read_only=False) as store:
+        store._connection.execute("UPDATE results SET pushes = 9 WHERE key = ?", (key,))
+    other = invoke("bench", "replay", lie, key[:8], "--no-rerun", "--json")
+    assert other.exit_code == 1
+    assert json.loads(other.stdout)["differences"] == {"pushes": [9, pushes]}
+
+
+@pytest.mark.slow
+def test_a_planner_in_a_file_is_repeated_only_if_it_is_given(invoke: Invoke) -> None:
+    name = misbehaving("Raises")
+    assert invoke("bench", "vieira/simple-01", "--planner", name, *HERE).exit_code == 1
+    words = ("bench", "replay", "here", "vieira/simple-01", name, "0", "--no-rerun")
+    refused = invoke(*words)
+    assert refused.exit_code == 2
+    assert f"give it yourself, as in --planner {name}" in refused.stderr
+    same = invoke(*words, "--planner", name)
+    assert (same.exit_code, same.stdout.startswith("the same: error (RuntimeError: no idea")) == (0, True)
+    assert "Traceback" in same.stderr
+    assert "is not the planner of the trial" in invoke(*words, "--planner", "phia").stderr
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
+def test_after_kill_9_no_child_lives_on_and_it_goes_on_where_it_was(spawn: Spawn, run: Run) -> None:
+    hanging = f"{misbehaving('ForksAndHangs')}[mark=ids]"
+    words = ("bench", "vieira/simple-01", "--planner", "phia", "--planner", hanging, "--workers", "2", *HERE)
+    process = spawn(*words)
+    until(lambda: len(noted(Path("ids"))) == 3 and done("here") == 1, process)
+    assert all(lives(each) for each in noted(Path("ids")))
+    process.kill()
+    process.communicate()
+    until(lambda: not [each for each in noted(Path("ids")) if lives(each)])
+    again = run(*words, "--filter", "phia")
+    assert "0 of 2 trials to run" in again.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM], ids=lambda by: by.name)
+def test_an_interruption_ends_what_runs_keeps_what_is_done_and_says_how_to_go_on(
+    spawn: Spawn, by: signal.Signals
+) -> None:
+    hanging = f"{misbehaving('ForksAndHangs')}[mark=ids]"
+    process = spawn("bench", "vieira/simple-01", "--planner", "phia", "--planner", hanging, "--workers", "2", *HERE)
+    until(lambda: len(noted(Path("ids"))) == 3 and done("here") == 1, process)
+    process.send_signal(by)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out) == (130, "")
+    assert err.splitlines()[-1] == "interrupted; what was done is kept: go on with the same command and --out here"
+    until(lambda: not [each for each in noted(Path("ids")) if lives(each)])
+    assert done("here") == 1
+
+
+def done(directory: str) -> int:
+    """How many trials have a result."""
+    if not ResultStore.is_in(directory):
+        return 0
+    with ResultStore.open(directory) as store:
+        return len(store.done())
+
+
+def has(results: int) -> bool:
+    """Whether there are so many results."""
+    return done("here") >= results
+
+
+@pytest.mark.slow
+def test_killed_again_and_again_it_ends_as_if_undisturbed(spawn: Spawn, run: Run, finished: Path) -> None:
+    random = Random(4)
+    for _ in range(5):
+        process = spawn(*SMALL, "--workers", "2", *HERE)
+        until(partial(has, min(6, done("here") + random.randrange(2))), process)
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(random.random())
+        process.kill()
+        process.communicate()
+    assert run(*SMALL, *HERE).returncode == 0
+    assert rows("here") == rows(finished)
+    assert {row["end"] for row in rows("here")} == {TrialEnd.FINISHED}
+
+
+def test_the_shell_is_offered_commands_suites_and_options() -> None:
+    offered = {line.split(",")[-1] for line in completed("bench ")}
+    assert {"replay", "run", "vieira", "vieira/basic"} <= offered
+    assert "--planner" in completed("bench --pl")
+    assert "--planner" in completed("bench vieira --pl")
+    assert "ooa" in completed("bench vieira --planner o")
+    assert completed("bench vieira --accept ver") == ["versions"]
+
+
+def completed(words: str) -> list[str]:
+    """What bash is offered after these words."""
+    import typer
+    from typer._completion_classes import BashComplete
+
+    command = typer.main.get_command(app)
+    *before, last = words.split(" ")
+    completion = BashComplete(command, {}, "phframe", "_PHFRAME_COMPLETE")
+    return [item.value for item in completion.get_completions(before, last)]
