@@ -25,21 +25,18 @@ NOBODY = "No trial retrieved here, so there is nothing to draw."
 
 def bars_section(summaries: Sequence[GroupSummary], looks: Looks) -> ReportSection:
     """The paper's bar charts."""
-    caption = (
-        "Bars and points with intervals of 95 % (Wilson; BCa bootstrap by scene). The upright stroke in the first panel is the "
-        "rate of reached, the paper's success. The other panels are means of trials that retrieved; planning time has a "
-        "logarithmic axis and therefore points."
-    )
-    parts = [
-        Fold(
-            each.group.name,
-            (Picture(as_svg(draw_bars([each], looks, headed=False), f"bars{i}", f"Bar charts: {each.group.name}"), caption),),
-            open=True,
-        )
-        for i, each in enumerate(summaries)
-    ]  # fmt: skip
-    about = "The figures of the paper: rate of success, planning time, execution time and number of actions."
-    return ReportSection("bars", "Success, time and actions", about, tuple(parts))
+    parts = []
+    for i, each in enumerate(summaries):
+        svg = as_svg(draw_bars([each], looks, headed=False), f"bars{i}", f"Bar charts: {each.group.name}")
+        caption = f"{sum(summary.trials for summary in each.planners)} trials of {len(each.planners)} planners."
+        parts.append(Fold(each.group.name, (Picture(svg, caption),), open=True))
+    return ReportSection(
+        "bars", "Success, time and actions",
+        "The bar charts of the paper, with intervals of 95 % (Wilson; BCa bootstrap by scene). The upright stroke in the first "
+        "panel is the rate of reached, the paper's success. The other panels are means of trials that retrieved; planning time "
+        "has a logarithmic axis and therefore points.",
+        tuple(parts),
+    )  # fmt: skip
 
 
 def distributions_section(data: ReportData, looks: Looks) -> ReportSection:
