@@ -6,6 +6,7 @@ import math
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from statistics import fmean
 from typing import Any, Literal
 
 import numpy as np
@@ -113,7 +114,7 @@ def typical(
         level: Confidence.
         resamples: How many at most; fewer where there are more than ``MANY`` scenes.
     """
-    samples = [np.array([np.mean(found) for found in stratum.values() if len(found)]) for stratum in strata]
+    samples = [np.array([fmean(found) for found in stratum.values() if found]) for stratum in strata]
     everything = np.concatenate([*samples, np.zeros(0)])
     trials = sum(len(found) for stratum in strata for found in stratum.values())
     if not everything.size:

@@ -8,6 +8,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
+from statistics import fmean
 from typing import Any, Literal
 
 import numpy as np
@@ -141,7 +142,7 @@ def compare(
         retrieved_p=exact_mcnemar(votes.count(1.0), votes.count(-1.0)),
         time_ratio=math.exp(float(np.median(ratios))) if ratios else None,
         time_p=signed_rank(ratios) if ratios else None,
-        fewer_pushes=float(np.mean(pushes)) if pushes else None,
+        fewer_pushes=fmean(pushes) if pushes else None,
         pushes_p=signed_rank(pushes) if pushes else None,
     )
 
@@ -157,4 +158,4 @@ def _by_scene(
     found: dict[tuple[str, str], list[float]] = defaultdict(list)
     for x, y in pairs:
         found[x.suite, x.problem].append(difference(x, y))
-    return [float(np.mean(each)) for each in found.values()]
+    return [fmean(each) for each in found.values()]

@@ -8,7 +8,6 @@ from typing import Any
 
 from phframe.core.errors import OptionError
 
-
 _LONGEST = 40
 """Characters of a value that are shown in a name; of a longer one, its beginning and a digest that tells it from others."""
 

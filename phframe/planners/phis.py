@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, compress
 from math import inf
 from typing import Annotated, Literal
 
@@ -37,6 +37,9 @@ class PHIS(Planner[PHISOptions]):
         return _BreadthFirst(task, self.options).run()
 
 
+_Push = tuple[int, bytes]
+
+
 @dataclass(frozen=True, slots=True)
 class _Choice:
     """Sweeps of one group from one node, best first, those that were tried already left out."""
@@ -54,6 +57,7 @@ class _BreadthFirst:
         self._tree = self._search.tree
         self._tree.rate(ROOT, 0.0)
         self._left: dict[int, int] = {}  # obstacles in the way at a node
+        self._made: dict[_Push, int] = {}  # the node that each simulated push led to
         self._spare: list[_Choice] = []  # of which a sweep was safe, in the order they were tried
         self._best: tuple[int, Assessment] | None = None
         self._best_time = inf
@@ -88,15 +92,11 @@ class _BreadthFirst:
         return []
 
     def _groups(self, node: int, problem: PushProblem) -> Iterator[_Choice]:
-        """The sweeps of the closest component at each radius; of radii whose first sweep is the same, the smallest counts."""
-        known: set[bytes] = set()
+        """The sweeps of the closest component at each radius, if there are any."""
         for found in self._search.pushing.pushes_at_all_radii(problem):
             for sweeps in self._ways(found):
-                first = next(sweeps, None)
-                if first is None or (path := first[1].path.poses.tobytes()) in known:
-                    continue
-                known.add(path)
-                yield _Choice(node, chain([first], sweeps))
+                if (first := next(sweeps, None)) is not None:
+                    yield _Choice(node, chain([first], sweeps))
 
     def _ways(self, sweeps: Iterator[Proposal]) -> list[Iterator[Proposal]]:
         """The sweeps of a group, by direction if both are asked for."""
@@ -113,27 +113,46 @@ class _BreadthFirst:
         """Simulate the next sweep of each choice, again where that was not safe; returns the nodes of those that were."""
         level: list[int] = []
         while choices and self._room:
-            nexts = ((choice, self._next(choice)) for choice in choices)
-            ready = [(choice, sweep) for choice, sweep in nexts if sweep is not None][: self._room]
+            ready, twins = self._ready(choices)
             nodes = self._simulate([(choice.node, sweep) for choice, sweep in ready])
-            level += [node for node in nodes if not self._tree[node].closed]
-            made = [(choice, self._tree[node].closed) for (choice, _), node in zip(ready, nodes, strict=True)]
-            self._spare += [choice for choice, closed in made if not closed]
-            choices = [choice for choice, closed in made if closed]
+            safe = [not self._tree[node].closed for node in nodes]
+            level += compress(nodes, safe)
+            self._spare += compress((choice for choice, _ in ready), safe)
+            choices = [choice for (choice, _), fine in zip(ready, safe, strict=True) if not fine] + twins
         return level
 
+    def _ready(self, choices: list[_Choice]) -> tuple[list[tuple[_Choice, Proposal]], list[_Choice]]:
+        """The next sweep of each choice, and the choices whose next sweep is among these already: they wait for it."""
+        ready: dict[_Push, tuple[_Choice, Proposal]] = {}
+        twins = []
+        for choice in choices:
+            if (sweep := self._next(choice)) is None:
+                continue
+            if (push := _push_of(choice.node, sweep)) in ready:
+                twins.append(_Choice(choice.node, chain([sweep], choice.sweeps)))
+            else:
+                ready[push] = (choice, sweep)
+        return list(ready.values())[: self._room], twins
+
     def _next(self, choice: _Choice) -> Proposal | None:
-        """The next sweep that may lead to a quicker plan than the best one."""
-        allowed = self._best_time - self._time(choice.node)
-        return next((sweep for sweep in choice.sweeps if _least_time(sweep[1]) < allowed), None)
+        """The next sweep that may lead to a quicker plan than the best one; none where another radius led to it, and it is safe."""
+        for sweep in choice.sweeps:
+            made = self._made.get(_push_of(choice.node, sweep))
+            if made is not None and self._search.penalty(made) == 0:
+                self._spare.append(choice)
+                return None
+            if made is None and self._time(choice.node) + _least_time(sweep[1]) < self._best_time:
+                return sweep
+        return None
 
     def _simulate(self, pushes: Sequence[tuple[int, Proposal]]) -> list[int]:
         """The nodes that pushes lead to. Where the budget runs out among them, the first ones are in the tree."""
         nodes: list[int] = []
         while len(nodes) < len(pushes):
             made = self._search.try_frontier(pushes[len(nodes) :])
-            for (parent, _), node in zip(pushes[len(nodes) :], made, strict=False):
+            for (parent, sweep), node in zip(pushes[len(nodes) :], made, strict=False):
                 motion = self._tree[node].motion
+                self._made[_push_of(parent, sweep)] = node
                 self._tree.rate(node, self._time(parent) + (motion.duration if motion is not None else 0.0))
             nodes += made
         return nodes
@@ -163,6 +182,11 @@ class _BreadthFirst:
         end, outcome = found
         self._tree.close_others(end, "leads to no quicker plan" if self._best else "leads to no grasp")
         return self._tree.plan(end, outcome.status, outcome.reason)
+
+
+def _push_of(node: int, sweep: Proposal) -> _Push:
+    """What decides what a sweep does: from where, and along which path."""
+    return node, sweep[1].path.poses.tobytes()
 
 
 def _least_time(action: Action) -> float:

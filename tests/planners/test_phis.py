@@ -76,7 +76,7 @@ PLACES = st.lists(
 
 
 def answer(seed: int, scene: Scene, state: State, action: Action) -> Transition:
-    """Any outcome, decided by what is done from where: all, some or none are moved out, one spills, the arm stalls."""
+    """Any outcome, decided by the path and from where: some or none are moved out, one spills or topples, the arm stalls."""
     if action.kind is ActionKind.GRASP:
         poses = state.poses - np.eye(1, 7)[0] * 0.6 * (np.arange(len(state.poses)) == scene.target_index)[:, None]
         return Transition(
@@ -84,8 +84,8 @@ def answer(seed: int, scene: Scene, state: State, action: Action) -> Transition:
         )
     rng = np.random.default_rng([seed, crc32(state.poses.tobytes()), crc32(action.path.poses.tobytes())])
     least = time_path(action.path, 0.0, 1.0).duration
-    rows = [scene.index(name) for name in action.moves if rng.random() < 0.8]
     poses, conditions = state.poses.copy(), list(state.conditions)
+    rows = [row for row in range(len(poses)) if row != scene.target_index and rng.random() < 0.5]
     poses[rows, 1] = 0.55
     poses[rows, 0] = 0.05 + 0.08 * np.array(rows)
     if rows and rng.random() < 0.15:
@@ -128,7 +128,7 @@ def least_time(task: Task, search: PushSearch, node: int, options: PHISOptions) 
     return float(best)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(PLACES, st.integers(0, 1000))
 def test_no_way_that_it_searches_takes_less_time(places: list[tuple[float, float]], seed: int) -> None:
     scene, options = scene_of((0.45, 0.3), *places), PHISOptions(patience=1000, max_nodes=1_000_000)
@@ -139,7 +139,7 @@ def test_no_way_that_it_searches_takes_less_time(places: list[tuple[float, float
         assert pushing_time(tree_of(plan).path) == pytest.approx(least)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(PLACES, st.integers(0, 1000), st.sampled_from(["paper", "both"]))
 def test_its_path_is_safe_and_the_quickest_in_its_tree(
     places: list[tuple[float, float]], seed: int, directions: str
@@ -172,7 +172,7 @@ def test_when_the_budget_runs_out_the_best_plan_so_far_counts(places: list[tuple
     assert times == sorted(times, reverse=True)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(PLACES, st.integers(0, 1000), st.integers(1, 12))
 def test_no_further_push_is_tried_once_the_tree_is_as_large_as_allowed(
     places: list[tuple[float, float]], seed: int, most: int

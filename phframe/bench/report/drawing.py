@@ -81,9 +81,12 @@ def shortened(name: str, longest: int = 38) -> str:
 
 
 def _save(figure: Any, stream: io.BytesIO | io.StringIO, **how: Any) -> None:
-    """Letters that the font lacks are drawn as boxes, and not complained of."""
+    """Letters that the font lacks are drawn as boxes, and not complained of. The layout is made once, not at each drawing."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph")
+        if (layout := figure.get_layout_engine()) is not None:
+            layout.execute(figure)
+            figure.set_layout_engine("none")
         figure.savefig(stream, **how)
 
 

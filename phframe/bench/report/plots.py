@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import combinations
 from typing import Any
 
 from phframe.bench.report.bars import draw_bars
@@ -24,21 +25,18 @@ NOBODY = "No trial retrieved here, so there is nothing to draw."
 
 def bars_section(summaries: Sequence[GroupSummary], looks: Looks) -> ReportSection:
     """The paper's bar charts."""
-    caption = (
-        "Bars and points with intervals of 95 % (Wilson; BCa bootstrap by scene). The upright stroke in the first panel is the "
-        "rate of reached, the paper's success. The other panels are means of trials that retrieved; planning time has a "
-        "logarithmic axis and therefore points."
-    )
-    parts = [
-        Fold(
-            each.group.name,
-            (Picture(as_svg(draw_bars([each], looks, headed=False), f"bars{i}", f"Bar charts: {each.group.name}"), caption),),
-            open=True,
-        )
-        for i, each in enumerate(summaries)
-    ]  # fmt: skip
-    about = "The figures of the paper: rate of success, planning time, execution time and number of actions."
-    return ReportSection("bars", "Success, time and actions", about, tuple(parts))
+    parts = []
+    for i, each in enumerate(summaries):
+        svg = as_svg(draw_bars([each], looks, headed=False), f"bars{i}", f"Bar charts: {each.group.name}")
+        caption = f"{sum(summary.trials for summary in each.planners)} trials of {len(each.planners)} planners."
+        parts.append(Fold(each.group.name, (Picture(svg, caption),), open=True))
+    return ReportSection(
+        "bars", "Success, time and actions",
+        "The bar charts of the paper, with intervals of 95 % (Wilson; BCa bootstrap by scene). The upright stroke in the first "
+        "panel is the rate of reached, the paper's success. The other panels are means of trials that retrieved; planning time "
+        "has a logarithmic axis and therefore points.",
+        tuple(parts),
+    )  # fmt: skip
 
 
 def distributions_section(data: ReportData, looks: Looks) -> ReportSection:
@@ -217,16 +215,17 @@ def _timed_out(group: Group, end: float) -> str:
 
 def _logrank(group: Group, data: ReportData) -> Iterator[Part]:
     """The log-rank test of every two planners, on the lowest seed of each scene, so that trials are independent."""
-    tables = {name: _first_seeds(table) for name, table in by_problem(group).items()}
     end = _end_of_time(group, data.limits)
+    tables = {
+        name: {key: observed(result, data.limits[result.key], end) for key, result in _first_seeds(table).items()}
+        for name, table in by_problem(group).items()
+    }
     rows: list[tuple[str, str, int, float]] = []
-    for i, a in enumerate(tables):
-        for b in list(tables)[i + 1 :]:
-            common = sorted(tables[a].keys() & tables[b].keys())
-            seen = [[observed(tables[x][c], data.limits[tables[x][c].key], end) for c in common] for x in (a, b)]
-            p = logrank_p(*seen) if common else None
-            if p is not None:
-                rows.append((a, b, len(common), p))
+    for a, b in combinations(tables, 2):
+        common = sorted(tables[a].keys() & tables[b].keys())
+        p = logrank_p(*([tables[x][each] for each in common] for x in (a, b))) if common else None
+        if p is not None:
+            rows.append((a, b, len(common), p))
     if rows:
         adjusted = holm([row[3] for row in rows])
         cells = tuple((*row[:3], p) for row, p in zip(rows, adjusted, strict=True))
