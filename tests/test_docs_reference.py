@@ -40,7 +40,7 @@ from tests.markdown import DOCS, PAGES, README, ROOT, blocks, column, each_page,
 PLANNERS = [each.name for each in builtin.EXTENSIONS if each.kind is Kind.PLANNER]
 GRTC = ("grtc-straight", "guided")
 """Planners that have options of their own, in one table."""
-SEARCHES = ("phis", "phim")
+FURTHER = ("phia", "ooa", "phis", "phim")
 """Planners with the family's options and further ones, in a table of their own."""
 KINODYNAMIC = ("grtc-kinodynamic", "kinodynamic-rrt")
 """Planners whose options are told where they are described."""
@@ -178,7 +178,7 @@ def option_rows(planner: str) -> list[list[str]]:
     if planner in KINODYNAMIC:
         return table("docs/planners.md", f"`{planner}`")
     if planner not in GRTC:
-        own = table("docs/planners.md", f"`{planner}`") if planner in SEARCHES else []
+        own = table("docs/planners.md", f"`{planner}`") if planner in FURTHER else []
         return table("docs/planners.md", "Options") + own
     rows = table("docs/planners.md", "Options of `grtc-straight` and `guided`")
     return [row for row in rows if not re.match(r"`?(grtc-straight|guided)`?:", row[3]) or planner in row[3]]
