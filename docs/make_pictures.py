@@ -11,7 +11,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from docs.screenshot import find_chromium
+from docs.chromium import find_chromium
 
 HERE = Path(__file__).parent / "images"
 SOLVE = "phframe solve vieira/basic"

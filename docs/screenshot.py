@@ -7,27 +7,18 @@ from __future__ import annotations
 
 import argparse
 import base64
-import json
 import os
-import shutil
 import signal
 import socket
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
-CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-FLAGS = (
-    *("--headless", "--no-sandbox", "--no-first-run", "--disable-quic", "--disable-sync", "--disable-component-update"),
-    *("--disable-background-networking", "--remote-debugging-pipe", "--ignore-gpu-blocklist"),
-    *("--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
-)
-"""Alone with the page, draw by software, listen on two pipes."""
+from docs.chromium import CHROMIUM, ChromiumPage, find_chromium
+
 WIDTH, HEIGHT = 1760, 1044
 TIMELINE = 0.167, 0.8825
 """Where the collapsed time panel's line begins and ends, in fractions of the width."""
@@ -37,11 +28,6 @@ LOOKS, MOST = 3, 40
 """How many looks must see the same, and after how many it is given up."""
 TOP, PANEL = 36, 32
 """Height of the viewer's own bar, which is cut off, and of the collapsed time panel (pixels)."""
-
-
-def find_chromium() -> str | None:
-    """The browser's executable; None: there is none."""
-    return next(filter(None, map(shutil.which, CHROMIUM)), None)
 
 
 def take(recording: Path, picture: Path, theme: str = "dark", at: float = 0.0) -> None:
@@ -59,7 +45,7 @@ def take(recording: Path, picture: Path, theme: str = "dark", at: float = 0.0) -
     browser = find_chromium()
     if browser is None:
         raise RuntimeError(f"no Chromium: none of {', '.join(CHROMIUM)} is installed")
-    with _served(recording) as address, _Browser(browser) as page:
+    with _served(recording) as address, _Viewer(browser, WIDTH, HEIGHT) as page:
         page.open(f"{address}&renderer=webgl&hide_welcome_screen=1&theme={theme}")
         time.sleep(DRAWN)
         low, high = TIMELINE
@@ -97,40 +83,13 @@ def _await_port(port: int) -> None:
     raise RuntimeError("the web viewer does not start")
 
 
-class _Browser:
-    """One page of Chromium, told what to do over two pipes (descriptors 3 and 4 of the browser)."""
-
-    def __init__(self, executable: str) -> None:
-        self._profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-        (theirs_in, self._out), (self._in, theirs_out) = os.pipe(), os.pipe()
-        command = [executable, *FLAGS, f"--user-data-dir={self._profile.name}", f"--window-size={WIDTH},{HEIGHT}"]
-        # The shell moves both pipes to where the browser looks for them.
-        script = f'exec "$@" 3<&{theirs_in} 4>&{theirs_out}'
-        self._process = subprocess.Popen(
-            ["bash", "-c", script, "bash", *command, "about:blank"],
-            pass_fds=(theirs_in, theirs_out),
-            stderr=subprocess.DEVNULL,
-        )
-        os.close(theirs_in)
-        os.close(theirs_out)
-        self._number, self._unread, self._session = 0, b"", ""
-
-    def __enter__(self) -> _Browser:
-        target = self._do("Target.createTarget", url="about:blank")["targetId"]
-        self._session = self._do("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._process.terminate()
-        self._process.wait()
-        os.close(self._in)
-        os.close(self._out)
-        self._profile.cleanup()
+class _Viewer(ChromiumPage):
+    """The page with Rerun's viewer."""
 
     def open(self, address: str) -> None:
         """Go to an address."""
-        self._do("Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, deviceScaleFactor=1, mobile=False)
-        self._do("Page.navigate", url=address)
+        self.do("Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, deviceScaleFactor=1, mobile=False)
+        self.do("Page.navigate", url=address)
 
     def drag(self, x: float, y: float) -> None:
         """With the left button, a little to the right, up to pixels from the top left; then away from everything."""
@@ -142,7 +101,7 @@ class _Browser:
 
     def _mouse(self, kind: str, x: float, y: float) -> None:
         button = {} if kind == "mouseMoved" else {"button": "left", "clickCount": 1}
-        self._do("Input.dispatchMouseEvent", type=kind, x=x, y=y, buttons=1, **button)
+        self.do("Input.dispatchMouseEvent", type=kind, x=x, y=y, buttons=1, **button)
 
     def at_rest(self, moment: float) -> bytes:
         """The picture (PNG) when the time is dragged to so many pixels, which pauses, once several looks in a row see the same.
@@ -162,29 +121,7 @@ class _Browser:
     def _picture(self, height: int) -> bytes:
         """What there is below the viewer's own bar (PNG)."""
         clip = {"x": 0, "y": TOP, "width": WIDTH, "height": height, "scale": 1}
-        return base64.b64decode(self._do("Page.captureScreenshot", format="png", clip=clip)["data"])
-
-    def _do(self, method: str, **parameters: Any) -> Any:
-        self._number += 1
-        message = {"id": self._number, "method": method, "params": parameters}
-        if self._session:
-            message["sessionId"] = self._session
-        os.write(self._out, json.dumps(message).encode() + b"\0")
-        while True:
-            answer = self._read()
-            if answer.get("id") == self._number:
-                if "error" in answer:
-                    raise RuntimeError(f"{method}: {answer['error']}")
-                return answer["result"]
-
-    def _read(self) -> Any:
-        while b"\0" not in self._unread:
-            more = os.read(self._in, 1 << 20)
-            if not more:
-                raise RuntimeError("Chromium has ended")
-            self._unread += more
-        message, _, self._unread = self._unread.partition(b"\0")
-        return json.loads(message)
+        return base64.b64decode(self.do("Page.captureScreenshot", format="png", clip=clip)["data"])
 
 
 if __name__ == "__main__":

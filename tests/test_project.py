@@ -15,7 +15,7 @@ from packaging.utils import canonicalize_name
 from ruamel.yaml import YAML
 
 ROOT = Path(__file__).resolve().parent.parent
-ENGINES = {"rerun", "mujoco", "pybullet", "ompl", "baxter", "meshes", "video", "plots", "parquet", "cluster"}
+ENGINES = {"rerun", "mujoco", "pybullet", "ompl", "baxter", "meshes", "video", "plots", "parquet", "cluster", "report"}
 
 
 @functools.cache
@@ -79,7 +79,7 @@ def test_citation_names_the_paper() -> None:
 
 def test_wheel_ships_types_data_licence_and_command(wheel: zipfile.ZipFile) -> None:
     names = set(wheel.namelist())
-    data = [path for path in (ROOT / "phframe").rglob("*") if path.suffix in {".py", ".yaml", ".typed"}]
+    data = [path for path in (ROOT / "phframe").rglob("*") if path.suffix in {".py", ".yaml", ".html", ".typed"}]
     assert {path.relative_to(ROOT).as_posix() for path in data} <= names
     assert "phframe/py.typed" in names
     assert any(name.endswith("/licenses/LICENSE") for name in names)

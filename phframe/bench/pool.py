@@ -23,7 +23,7 @@ def run_trials(
         modules: What their processes have imported from the beginning.
 
     Raises:
-        OSError: If the system gives no process.
+        InputError: If the system gives no process.
     """
     running: list[TrialProcess] = []
     waiting = iter(trials)

@@ -42,7 +42,7 @@ class SummaryLine:
 
 
 @dataclass(slots=True)
-class Tally:
+class SummaryTally:
     """What is counted while results come in."""
 
     trials: int = 0
@@ -65,13 +65,13 @@ class Tally:
 
 def summary(results: Iterable[TrialResult]) -> list[SummaryLine]:
     """A line for every planner and suite that has a result, by planner, then suite."""
-    tallies: dict[tuple[str, str], Tally] = {}
+    tallies: dict[tuple[str, str], SummaryTally] = {}
     for result in results:
-        tallies.setdefault((result.planner, result.suite), Tally()).count(result)
+        tallies.setdefault((result.planner, result.suite), SummaryTally()).count(result)
     return [_line(*key, tallies[key]) for key in sorted(tallies)]
 
 
-def _line(planner: str, suite: str, tally: Tally) -> SummaryLine:
+def _line(planner: str, suite: str, tally: SummaryTally) -> SummaryLine:
     low, high = _wilson(tally.retrieved, tally.trials)
     pushes = fmean(tally.pushes) if tally.pushes else None
     seconds = median(tally.planning_times) if tally.planning_times else None

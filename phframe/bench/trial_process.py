@@ -16,6 +16,7 @@ from phframe.bench.environment import Environment
 from phframe.bench.isolation import kill_group
 from phframe.bench.limits import TrialLimits
 from phframe.bench.trial import Trial
+from phframe.core import InputError
 
 LARGEST_RESULT = 2**20
 """Bytes; a trial that sends more is not listened to."""
@@ -78,7 +79,7 @@ class TrialProcess:
         """Start it.
 
         Raises:
-            OSError: If the system gives no process.
+            InputError: If the system gives no process.
         """
         (results, send), (output, write) = (self._context.Pipe(duplex=False) for _ in range(2))
         self._pipes = [PipeTail(results, LARGEST_RESULT), PipeTail(output, TAIL)]
@@ -89,6 +90,9 @@ class TrialProcess:
         try:
             with one_thread_each():
                 self._process.start()
+        except (OSError, EOFError) as error:
+            remedy = " Set TMPDIR to a directory with a shorter path." if "AF_UNIX" in str(error) else ""
+            raise InputError(f"cannot start the process of a trial: {_why(error)}.{remedy}") from None
         finally:
             send.close()
             write.close()
@@ -163,6 +167,10 @@ class PipeTail:
                 return
             self.kept += piece
             del self.kept[: -self._most]
+
+
+def _why(error: Exception) -> str:
+    return getattr(error, "strerror", None) or str(error) or "the process that they are forked from has ended"
 
 
 def preload(modules: Iterable[str]) -> None:

@@ -11,7 +11,7 @@ from phframe.cli import bench_replay, completion
 from phframe.cli.bench_export import export_results
 from phframe.cli.bench_group import BenchGroup
 from phframe.cli.bench_merge import merge
-from phframe.cli.flags import Arm, finite, flag, part, path
+from phframe.cli.flags import Arm, finite, flag, literal, part, path
 from phframe.cli.group import show_help
 from phframe.cli.options import parse_options
 from phframe.cli.solve import (
@@ -112,7 +112,9 @@ Accepted = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="Print the summary, or the list, as JSON instead of a table.")]
 
 
-@app.command("run", epilog="Example: phframe bench papallas --planner phia --planner 'ooa[margin=0.02]' --workers 2")
+@app.command(
+    "run", epilog=literal("Example: phframe bench papallas --planner phia --planner 'ooa[margin=0.02]' --workers 2")
+)
 def run(
     suites: Suites,
     planner: Planners = None,

@@ -78,8 +78,9 @@ def run_bench(settings: BenchSettings, output: BenchOutput) -> int:
 
 
 def _accepted(text: str) -> Accept:
-    if text not in list(Accept):
-        raise UnknownNameError("difference", text, list(Accept), "That is what --accept takes.")
+    known = [each.value for each in Accept]
+    if text not in known:
+        raise UnknownNameError("difference", text, known, "That is what --accept takes.")
     return Accept(text)
 
 

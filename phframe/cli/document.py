@@ -9,6 +9,7 @@ from typing import Any
 import typer
 
 from phframe.cli.exit_codes import MEANING
+from phframe.cli.flags import plain
 from phframe.cli.main import app
 
 _OWN_ONLY = ("--help", "--install-completion", "--show-completion")
@@ -41,7 +42,7 @@ def _all_of(path: str, commands: Mapping[str, Any]) -> Iterator[tuple[str, Any]]
 def _section(name: str, command: Any) -> str:
     arguments = [f"[{_metavar(each)}]" for each in command.params if not each.opts[0].startswith("-")]
     usage = " ".join([name, "[OPTIONS]", *arguments, *(["COMMAND"] if hasattr(command, "commands") else [])])
-    lines = [f"## {name}", f"`{usage}`", command.help or "", command.epilog or ""]
+    lines = [f"## {name}", f"`{usage}`", plain(command.help or ""), plain(command.epilog or "")]
     table = "\n".join(_rows(command))
     return "\n\n".join(line for line in [*lines, table] if line)
 
@@ -51,7 +52,7 @@ def _rows(command: Any) -> Iterator[str]:
     if shown:
         yield "| option | what it is | default |\n| --- | --- | --- |"
     for each in shown:
-        cells = (_spelling(each), each.help or "", _default(each))
+        cells = (_spelling(each), plain(each.help or ""), _default(each))
         yield f"| {' | '.join(cell.replace('|', BAR) for cell in cells)} |"
 
 

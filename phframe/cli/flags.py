@@ -11,6 +11,16 @@ import typer
 from phframe.cli import completion
 
 
+def literal(text: str) -> str:
+    """A help text or an example in which brackets are brackets: what prints the help takes them for markup."""
+    return text.replace("[", "\\[")
+
+
+def plain(text: str) -> str:
+    """The text that ``literal`` was given."""
+    return text.replace("\\[", "[")
+
+
 def flag(metavar: str, meaning: str, default: str | bool = True, **more: Any) -> Any:
     """A flag that takes a value, called like the parameter of the command.
 
@@ -20,7 +30,7 @@ def flag(metavar: str, meaning: str, default: str | bool = True, **more: Any) ->
         default: What the help says it is by default; True: the value that the command has for it.
         more: For ``typer.Option``.
     """
-    return typer.Option(metavar=metavar, help=meaning, show_default=default, **more)
+    return typer.Option(metavar=metavar, help=literal(meaning), show_default=default, **more)
 
 
 def part(kind: str, meaning: str, default: str | bool = True) -> Any:

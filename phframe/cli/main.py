@@ -13,6 +13,7 @@ from phframe.cli.exit_codes import ExitCode
 from phframe.cli.export import export
 from phframe.cli.group import CommandGroup, show_help
 from phframe.cli.replay import replay
+from phframe.cli.report import report
 from phframe.cli.scenes import scenes
 from phframe.cli.solve import solve
 
@@ -29,6 +30,7 @@ app.command("solve", epilog="Example: phframe solve papallas/s01 --planner ooa -
 )
 app.command("export", epilog="Example: phframe export vieira/basic --arm planar --out basic.xml")(export)
 app.command("replay", epilog="Example: phframe replay runs/basic --backend mujoco")(replay)
+app.command("report", epilog="Example: phframe report runs/paper --figures figures")(report)
 app.command("scenes", epilog="Example: phframe scenes dense/9 --out dense.png")(scenes)
 app.add_typer(bench.app, name="bench")
 listings.add_to(app)

@@ -70,7 +70,7 @@ class Output:
         write_file_by(self._path, write, overwrite=self._force)
         note(f"wrote {path_shown(self._path)}")
 
-    def write_folder(self, files: Mapping[str, str]) -> None:
+    def write_folder(self, files: Mapping[str, str | bytes]) -> None:
         """Write a folder of files, given by their paths in it; a new one appears whole or not at all."""
         assert self._path is not None, "a folder has a path"
         write_folder(self._path, files, overwrite=self._force)

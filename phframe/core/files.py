@@ -114,8 +114,11 @@ def write_file(path: Path, content: str | bytes, *, overwrite: bool = True) -> P
     Raises:
         InputError: If it cannot be written, or is there and may not be replaced.
     """
-    data = content.encode() if isinstance(content, str) else content
-    return write_file_by(path, lambda part: part.write_bytes(data), overwrite=overwrite)
+    return write_file_by(path, lambda part: part.write_bytes(_encoded(content)), overwrite=overwrite)
+
+
+def _encoded(content: str | bytes) -> bytes:
+    return content.encode() if isinstance(content, str) else content
 
 
 def write_file_by(path: Path, write: Callable[[Path], object], *, overwrite: bool = True) -> Path:
@@ -150,12 +153,12 @@ def check_folder_writable(path: Path, *, overwrite: bool = False) -> None:
         _check_folder(path.resolve())
 
 
-def write_folder(path: Path, files: Mapping[str, str], *, overwrite: bool = False) -> Path:
-    """Write a folder of text files; a new one appears whole or not at all.
+def write_folder(path: Path, files: Mapping[str, str | bytes], *, overwrite: bool = False) -> Path:
+    """Write a folder of files; a new one appears whole or not at all.
 
     Args:
         path: The folder; a symbolic link to one is followed.
-        files: The texts, by their paths in it.
+        files: What they hold, text as UTF-8, by their paths in it.
         overwrite: Whether it may hold files already, those of the same names to be replaced one by one, the others kept.
 
     Raises:
@@ -167,8 +170,8 @@ def write_folder(path: Path, files: Mapping[str, str], *, overwrite: bool = Fals
             _refill(path.resolve(), files, overwrite)
     else:
         with new_folder(path) as made:
-            for name, text in files.items():
-                write_file(made / name, text)
+            for name, content in files.items():
+                write_file(made / name, content)
     return path
 
 
@@ -195,13 +198,13 @@ def new_folder(path: Path) -> Iterator[Path]:
         shutil.rmtree(made, ignore_errors=True)
 
 
-def _refill(place: Path, files: Mapping[str, str], overwrite: bool) -> None:
+def _refill(place: Path, files: Mapping[str, str | bytes], overwrite: bool) -> None:
     """Write all files beside their places before the first is put."""
     new: list[NewFile] = []
     try:
-        for name, text in files.items():
+        for name, content in files.items():
             new.append(NewFile(place / name, overwrite=overwrite))
-            new[-1].part.write_bytes(text.encode())
+            new[-1].part.write_bytes(_encoded(content))
         for file in new:
             file.put()
     finally:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from typing import Any
 
 from phframe.core.errors import OptionError
+
+_LONGEST = 40
+"""Characters of a value that are shown in a name; of a longer one, its beginning and a digest that tells it from others."""
 
 
 def variant_name(name: str, options: Mapping[str, Any]) -> str:
@@ -14,8 +18,11 @@ def variant_name(name: str, options: Mapping[str, Any]) -> str:
     Args:
         name: Of the part.
         options: Values by key; those at their default are left out by whoever calls.
+
+    Returns:
+        What ``split_variant`` reads again, unless a value is so long that it is shortened.
     """
-    texts = [f"{key}={_text(value)}" for key, value in sorted(options.items())]
+    texts = [f"{key}={_shortened(_text(value))}" for key, value in sorted(options.items())]
     return f"{name}[{','.join(texts)}]" if texts else name
 
 
@@ -63,6 +70,12 @@ def _pieces(inside: str) -> list[str]:
         else:
             pieces[-1] += letter
     return pieces
+
+
+def _shortened(text: str) -> str:
+    if len(text) <= _LONGEST:
+        return text
+    return f"{text[: _LONGEST // 2]}...{hashlib.sha256(text.encode()).hexdigest()[:8]}"
 
 
 def _text(value: Any) -> str:

@@ -187,21 +187,20 @@ class _KinodynamicClearing:
 
     def _reach(self, node: int, drive: StraightDrive) -> Plan:
         """Steer to the target with open fingers, close them and draw it out; again while that fails and controls are left."""
-        left, why = self._options.reach_controls, "no controls were left"
+        left, plan = self._options.reach_controls, self._fail(node, "no controls were left to reach the target")
         state = self._tree[node].state
         steerer, region = self._steerer(state), self._in_hand(state, drive)
         opening = drive.action.path.rule(0).opening
-        for _ in range(self._options.attempts):
+        for attempt in range(self._options.attempts):
             start = steerer.begin(state)
             leg = steerer.leg(start, region, opening=opening, bias=self._options.approach_bias, most=left)
             if not leg.reached:
-                why = f"no controls that reach the target were found: {leg.distance:.3f} m short"
+                short = f"no controls that reach the target were found: {leg.distance:.3f} m short"
+                return plan if attempt else self._fail(node, short)
+            plan, left = self._grasp(node, leg, opening), left - leg.tree.tried
+            if plan.status.is_success or left <= 0:
                 break
-            plan = self._grasp(node, leg, opening)
-            if plan.succeeded:
-                return plan
-            why, left = plan.reason, max(1, left - leg.tree.tried)
-        return self._fail(node, why)
+        return plan
 
     def _grasp(self, node: int, leg: SteeredLeg, opening: float) -> Plan:
         """The plan that ends with a steered reach, simulated and judged by the task's goal."""
@@ -215,7 +214,7 @@ class _KinodynamicClearing:
         end = self._tree.child(node, action, made, decision)
         outcome = task.goal.assess(task.scene, made.state, Attempt(action, made.motion))
         plan = self._tree.plan(end, outcome.status, outcome.reason)
-        if not plan.succeeded:
+        if not outcome.status.is_success:
             self._tree.close(end, outcome.reason)
         return plan
 

@@ -13,11 +13,10 @@ from typing import Any
 import numpy as np
 
 from phframe.core import Plan, Planner, Task
-from phframe.planners.phia import PHIA
-from phframe.pushing.options import PushingOptions
+from phframe.planners.phia import PHIA, PHIAOptions
 
 
-class Marking(PushingOptions):
+class Marking(PHIAOptions):
     """Options.
 
     Attributes:

@@ -20,8 +20,7 @@ from phframe.bench.trial_process import Ending
 from phframe.bench.trial_result import TrialEnd
 from phframe.core import Episode, Loop, Plan, Planner, RunSpec, Status, Task
 from phframe.core.errors import BudgetExceededError
-from phframe.planners.phia import PHIA
-from phframe.pushing.options import PushingOptions
+from phframe.planners.phia import PHIA, PHIAOptions
 from phframe.runtime.run import run
 from tests.bench.benches import a_result, settings
 
@@ -64,10 +63,10 @@ def test_an_episode_is_measured(episode: Episode) -> None:
     )
 
 
-class LateOffers(Planner[PushingOptions]):
+class LateOffers(Planner[PHIAOptions]):
     """Offers what is not worth carrying out, then what is, then lets the budget run out."""
 
-    options_type = PushingOptions
+    options_type = PHIAOptions
 
     def search(self, task: Task) -> Plan:
         task.offer(Plan(Status.FAILED, "not yet"))
@@ -80,7 +79,7 @@ class LateOffers(Planner[PushingOptions]):
 
 
 def test_the_first_plan_that_was_worth_carrying_out_is_timed() -> None:
-    planner = GuardedPlanner(LateOffers(PushingOptions()))
+    planner = GuardedPlanner(LateOffers(PHIAOptions()))
     found = run(RunSpec("vieira/simple-01", planner=planner))
     assert found.status is Status.RETRIEVED
     assert 0 < (planner.first_solution_time or 0) < found.plans[0].cost.total

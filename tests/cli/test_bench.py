@@ -164,7 +164,7 @@ def test_other_versions_and_code_are_refused_until_they_are_accepted(
         (["vieira/z*"], "There is: vieira/basic"),
         (["random/9..1"], "random/0..99"),
         (["absent.yaml"], "absent.yaml: no such file"),
-        (["vieira", "--planner", "phai"], "Did you mean 'phia'?"),
+        (["vieira", "--planner", "phiaa"], "Did you mean 'phia'?"),
         (["vieira", "--planner", "phia[margn=1]"], "Did you mean 'margin'?"),
         (["vieira", "--planner", "phia[margin]"], "write name[key=value"),
         (["vieira", "--planner", "phia", "--planner", "phia"], "keep one"),
@@ -174,13 +174,13 @@ def test_other_versions_and_code_are_refused_until_they_are_accepted(
         (["vieira", "--workers", "0"], "greater than or equal to 1"),
         (["vieira", "--seeds", "0"], "greater than or equal to 1"),
         (["vieira", "--memory-limit", "1"], "greater than or equal to 256"),
-        (["vieira", "--trial-limit", "nan"], "not a finite number"),
+        (["vieira", "--trial-limit", "inf"], "not a finite number"),
         (["vieira", "--accept", "version"], "Did you mean 'versions'?"),
         (["--planner", "phia"], "missing argument 'SUITE...'"),
         (["replay", "absent", "k"], "holds no bench"),
         (["replay", "absent", "a", "b"], "three words"),
     ],
-    ids=" ".join,
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )
 def test_bad_input_is_one_clear_line_before_anything_runs(
     invoke: Invoke, workplace: Path, words: list[str], said: str
@@ -212,6 +212,17 @@ def test_a_damaged_file_of_results_is_refused_and_stays(invoke: Invoke, content:
     assert result.stderr.startswith(f"error: cannot use here/{FILE}: file is not a database")
     assert result.stderr.count("\n") == 1
     assert Path("here", FILE).read_bytes() == content
+
+
+@pytest.mark.slow
+def test_where_no_process_can_be_started_that_is_one_line(run: Run, tmp_path: Path) -> None:
+    long = tmp_path / ("x" * 100)
+    long.mkdir()
+    result = run(*SMALL, *HERE, "--quiet", TMPDIR=str(long))
+    assert result.returncode == 2
+    assert result.stderr == (
+        "error: cannot start the process of a trial: AF_UNIX path too long. Set TMPDIR to a directory with a shorter path.\n"
+    )
 
 
 @pytest.mark.slow

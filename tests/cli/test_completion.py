@@ -9,7 +9,7 @@ from tests.cli.conftest import Run
 
 
 def test_names_come_from_the_registry() -> None:
-    assert [name for name, _ in completion.names("planner")("p")] == ["phia"]
+    assert [name for name, _ in completion.names("planner")("phia")] == ["phia", "phia[sweeps=paper]"]
     assert [name for name, _ in completion.names("topology")("")] == ["ripser", "single-linkage"]
     assert completion.names("backend")("nothing") == []
 

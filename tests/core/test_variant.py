@@ -33,6 +33,12 @@ def test_a_value_may_hold_commas_in_brackets() -> None:
     assert variant_name("mine", {"radii": [0.1, 0.2]}) == "mine[radii=[0.1,0.2]]"
 
 
+def test_a_long_value_is_shortened_and_told_from_others() -> None:
+    one, two = (variant_name("guided", {"hints": [{"object": "a", "to": [0.1, y]}] * 9}) for y in (0.2, 0.3))
+    assert len(one) < 60
+    assert one != two
+
+
 def test_a_plain_name_has_no_options() -> None:
     assert split_variant("./mine.py:Mine") == ("./mine.py:Mine", {})
 

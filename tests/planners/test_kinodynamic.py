@@ -12,8 +12,23 @@ from functools import cache
 import numpy as np
 import pytest
 
-from phframe.core import ROOT, ActionKind, Budget, OptionError, Phase, Plan, Scene, Shelf, Status, Task
+from phframe.core import (
+    ROOT,
+    ActionKind,
+    Assessment,
+    Attempt,
+    Budget,
+    OptionError,
+    Phase,
+    Plan,
+    Scene,
+    Shelf,
+    State,
+    Status,
+    Task,
+)
 from phframe.kinodynamic.steered_decision import SteeredDecision
+from phframe.pushing import Retrieve, RetrieveOptions
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.world import WorldSpec
@@ -129,6 +144,27 @@ def test_a_world_that_cannot_be_steered_is_said_to_be_none() -> None:
         plan = create(Kind.PLANNER, "grtc-kinodynamic").plan(task)
     assert plan.status is Status.FAILED
     assert "cannot be steered" in plan.reason
+
+
+class NeverContent(Retrieve):
+    """Takes whatever is done for an empty corridor at best."""
+
+    def assess(self, scene: Scene, state: State, last: Attempt | None = None) -> Assessment:
+        return Assessment(Status.CLEARED, "not content")
+
+
+@pytest.mark.slow
+@pytest.mark.needs_ompl
+def test_a_reach_that_does_not_succeed_is_tried_again_as_often_as_allowed() -> None:
+    pytest.importorskip("ompl")
+    with PlanningWorld(WorldSpec(LONE)) as world:
+        topology, rng = create(Kind.TOPOLOGY, "ripser"), np.random.default_rng(SEED)
+        task = world.task(LONE.initial_state(), topology, rng, goal=NeverContent(RetrieveOptions()))
+        plan: Plan = create(Kind.PLANNER, "grtc-kinodynamic", {"attempts": 3}).plan(task)
+    assert plan.tree is not None
+    grasps = [node for node in plan.tree.nodes if node.action and node.action.kind is ActionKind.GRASP]
+    assert (len(grasps), plan.status, plan.reason) == (3, Status.CLEARED, "not content")
+    assert len({node.action for node in grasps}) == 3
 
 
 @pytest.mark.slow

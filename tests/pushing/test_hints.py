@@ -36,7 +36,7 @@ BAD: dict[str, tuple[str, list[str]]] = {
     "empty": ("", ["the file holds empty; expected a list"]),
     "no hint": ("- 3\n", ["line 1: a hint is 3; expected"]),
     "unknown key": ("- {object: a, to: [1, 2], at: 3}\n", ["line 1: unknown key 'at'", "known: object, to"]),
-    "meant": ("- {objct: a, to: [1, 2]}\n", ["did you mean 'object'?", "lacks object"]),
+    "meant": ("- {objects: a, to: [1, 2]}\n", ["did you mean 'object'?", "lacks object"]),
     "no place": ("\n- object: a\n", ["line 2: a hint lacks to: where it is to stand, [x, y] (m)"]),
     "three figures": ("- object: a\n  to: [1, 2, 3]\n", ["line 2: to is a list of 3"]),
     "text": ("- {object: a, to: [1, b]}\n", ["line 1: to is"]),

@@ -28,7 +28,8 @@ PUBLISHED = [name for name in scene_names() if name.startswith(("vieira", "papal
 
 
 def seen(scene: Scene, **options: float) -> tuple[Pushing, PushProblem, PersistenceDiagram]:
-    pushing = Pushing(simulated_tasks()(scene), PushingOptions(**options))
+    """A scene at its start, in the corridor of Algorithm 1."""
+    pushing = Pushing(simulated_tasks()(scene), PushingOptions(sweeps="paper", **options))
     problem = pushing.problem(scene.initial_state())
     assert isinstance(problem, PushProblem)
     return pushing, problem, pushing.diagram(problem)

@@ -14,7 +14,20 @@ from phframe.runtime.summary import summarize
 from tests.runtime.worlds import BASIC
 
 KEYS = [
-    *("format", "scene", "planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "goal", "seed", "noise"),
+    *(
+        "format",
+        "scene",
+        "planner",
+        "variant",
+        "backend",
+        "arm",
+        "plan_backend",
+        "plan_arm",
+        "topology",
+        "goal",
+        "seed",
+    ),
+    "noise",
     *("status", "reason", "actions", "planning_time", "motion_planning_time", "execution_time", "simulated_actions"),
     *("replans", "toppled", "spilled", "target_moved", "tracking_error", "prediction_error", "wall_contact", "clean"),
     *("recording", "versions"),
