@@ -8,9 +8,6 @@ from statistics import fmean, median
 
 from phframe.bench.trial_result import TrialEnd, TrialResult
 
-CONFIDENCE = 0.95
-"""Of the intervals."""
-
 
 @dataclass(frozen=True, slots=True)
 class SummaryLine:
@@ -72,15 +69,10 @@ def summary(results: Iterable[TrialResult]) -> list[SummaryLine]:
 
 
 def _line(planner: str, suite: str, tally: SummaryTally) -> SummaryLine:
-    low, high = _wilson(tally.retrieved, tally.trials)
+    from phframe.bench.statistics import wilson  # scipy takes a second to import
+
+    low, high = wilson(tally.retrieved, tally.trials)
     pushes = fmean(tally.pushes) if tally.pushes else None
     seconds = median(tally.planning_times) if tally.planning_times else None
     counts = tally.trials, tally.retrieved, tally.clean, tally.failures
     return SummaryLine(planner, suite, *counts, low, high, pushes, seconds)
-
-
-def _wilson(successes: int, trials: int) -> tuple[float, float]:
-    from scipy.stats import binomtest  # takes a second to import
-
-    interval = binomtest(successes, trials).proportion_ci(CONFIDENCE, "wilson")
-    return float(interval.low), float(interval.high)
