@@ -30,7 +30,7 @@ class SearchNode(Value):
         motion: What happened on the way.
         decision: Why the action was tried.
         value: What the planner thinks of it, in units of its own; None: nothing.
-        closed: Why it is looked at no further; empty: it is open, or on the chosen path.
+        closed: Why it is looked at no further; empty: it is open, or on the path of a plan that succeeds.
     """
 
     state: State

@@ -150,7 +150,12 @@ class Task:
         return Steering(self._steered, self._begin_steering, self._simulated)
 
     def ask(self, question: Question) -> Hint | None:
-        """What whoever can be asked says is to be moved next; None: there is no hint. The clock stands still meanwhile."""
+        """What whoever can be asked says is to be moved next; None: there is no hint. The clock stands still meanwhile.
+
+        Raises:
+            BudgetExceededError: If the budget is spent: nothing could be tried of what is said.
+        """
+        self._spend(1)
         began = time.perf_counter()
         try:
             return self._advisor.advise(question)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain, compress
 from math import inf
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, ValidationInfo, field_validator
 
 from phframe.core import ROOT, Action, Assessment, Infeasible, Plan, Planner, Task, time_path
-from phframe.pushing import Grasp, Proposal, PushingOptions, PushProblem, PushSearch, by_direction
+from phframe.pushing import Deviation, Grasp, Proposal, PushingOptions, PushProblem, PushSearch, by_direction
 
 
 class PHISOptions(PushingOptions):
@@ -25,6 +25,13 @@ class PHISOptions(PushingOptions):
 
     directions: Literal["paper", "both"] = "paper"
     max_nodes: Annotated[int, Field(ge=1, le=1_000_000)] = 200
+
+    @field_validator("directions")
+    @classmethod
+    def _one_direction_in_the_paper(cls, directions: str, info: ValidationInfo) -> str:
+        if directions == "both" and info.data.get("sweeps") == "paper":
+            raise ValueError("the paper's sweep has one direction: leave out sweeps=paper, or directions=both")
+        return directions
 
 
 class PHIS(Planner[PHISOptions]):
@@ -96,7 +103,7 @@ class _BreadthFirst:
         for found in self._search.pushing.pushes_at_all_radii(problem):
             for sweeps in self._ways(found):
                 if (first := next(sweeps, None)) is not None:
-                    yield _Choice(node, chain([first], sweeps))
+                    yield _Choice(node, chain([first], map(_after_another, sweeps)))
 
     def _ways(self, sweeps: Iterator[Proposal]) -> list[Iterator[Proposal]]:
         """The sweeps of a group, by direction if both are asked for."""
@@ -187,6 +194,12 @@ class _BreadthFirst:
 def _push_of(node: int, sweep: Proposal) -> _Push:
     """What decides what a sweep does: from where, and along which path."""
     return node, sweep[1].path.poses.tobytes()
+
+
+def _after_another(sweep: Proposal) -> Proposal:
+    """A sweep that is only tried where the one before it was not safe, or led to no plan."""
+    decision, action = sweep
+    return replace(decision, deviations=(*decision.deviations, Deviation.NEXT_SWEEP)), action
 
 
 def _least_time(action: Action) -> float:

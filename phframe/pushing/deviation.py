@@ -27,7 +27,7 @@ class Deviation(StrEnum):
     NOT_CLEARING = "sweep does not clear"
     """No sweep takes everything it pushes out of the corridor; this one at least moves it."""
     NEXT_SWEEP = "next sweep"
-    """The sweep before it stalled, spilled something or moved nothing when it was simulated."""
+    """The sweep before it stalled, spilled something or moved nothing when it was simulated, or led to no plan in a search."""
     GRASP_TURNED = "grasp turned"
     """The gripper deviates from the corridor's axis, past neighbours or a wall."""
     GRASP_TIGHT = "grasp with little room"

@@ -32,7 +32,7 @@ class PushingOptions(Options):
         wall_clearance: Kept between the sweeping arm and the walls (m).
         lane_clearance: Kept between the arm going in and the component it goes in beside (m).
         target_clearance: Least distance of the sweeping fingertip from the target's centre (radii).
-        max_tilt: Greatest tilt of the sweeping arm against the corridor (rad); 0: the paper's sweeps.
+        max_tilt: Greatest tilt of the sweeping arm against the corridor (rad); 0: none.
         neighbour_clearance: Kept between the reaching arm and walls and objects (m).
         max_grasp_turn: Greatest deviation of the reaching gripper from the corridor's axis (rad).
         withdrawal: How far outside the mouth the whole target is drawn (m).

@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import Annotated, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from phframe.core import (
@@ -141,7 +142,7 @@ class StraightPusher:
         path = GripperPath(poses, (Phase.INSERT, Phase.SWEEP, Phase.RETREAT), self._rules())
         return Action(f"push {name} to ({place[0]:.2f}, {place[1]:.2f})", path, (name,))
 
-    def _taken(self, state: State, row: int, points: FloatArray) -> FloatArray:
+    def _taken(self, state: State, row: int, points: FloatArray) -> NDArray[np.bool_]:
         """Mask ``(k, n)`` of the objects that are too near to points ``(k, 2)`` for another one to stand there."""
         distances = np.linalg.norm(points[:, None] - state.positions[None], axis=2)
         near = (distances < self._scene.radii + self._scene.radii[row] + self._options.apart) & state.on_board

@@ -22,6 +22,7 @@ from phframe.core import (
     Condition,
     ExploredTree,
     Motion,
+    OptionError,
     Options,
     Plan,
     Scene,
@@ -267,6 +268,8 @@ def test_the_next_sweep_of_a_group_is_tried_where_the_one_before_was_not_safe() 
         for node, group in {(node.parent, node.action.moves) for node in nodes if node.action}:
             tried = [each for each in nodes if each.action and (each.parent, each.action.moves) == (node, group)]
             assert all(each.closed.startswith(UNSAFE) for each in tried[:-1])
+            counted = [Deviation.NEXT_SWEEP in PushDecision.of(each.decision).deviations for each in tried]
+            assert counted == [False] + [True] * (len(tried) - 1)
             retried += len(tried) > 1
     assert retried
 
@@ -280,6 +283,11 @@ def test_both_directions_if_asked_for() -> None:
     assert paper < both
     assert {direction for _, direction in both} == {1, -1}
     assert {radius for radius, _ in both} == {radius for radius, _ in paper}
+
+
+def test_the_paper_s_one_direction_and_both_exclude_each_other() -> None:
+    with pytest.raises(OptionError, match="one direction"):
+        PHISOptions.parse({"directions": "both", "sweeps": "paper"}, "planner phis")
 
 
 @pytest.mark.slow
