@@ -217,6 +217,8 @@ class _Growing:
         """Simulate actions drawn at a node; the new node nearest to a configuration, if any came of it."""
         state = self._tree[node].state
         actions = [action for _ in range(self._options.actions) if (action := self._action(state, wanted)) is not None]
+        left = self._task.simulations_left
+        actions = actions if left is None else actions[: max(left, 1)]
         made = self._task.apply_many([(state, action) for action in actions])
         decision = Decision(f"towards a configuration with {wanted.moved} aside" if wanted.moved else "towards any")
         rows = [

@@ -203,3 +203,12 @@ def test_the_tree_keeps_every_push_that_was_tried_and_why_it_was_left() -> None:
 def test_impossible_options_are_refused() -> None:
     with pytest.raises(OptionError, match="actions"):
         create(Kind.PLANNER, "kinodynamic-rrt", {"actions": 0})
+
+
+def test_the_number_of_workers_does_not_change_what_a_budget_leads_to() -> None:
+    planner = create(Kind.PLANNER, "kinodynamic-rrt")
+    with PlanningWorld(WorldSpec(EASY)) as one, PlanningWorld(WorldSpec(EASY), workers=2) as two:
+        for limit in (1, 9, 10, 15, 21):
+            alone, together = (planner.plan(task_in(world, simulations=limit)) for world in (one, two))
+            assert alone == together
+            assert alone.cost.simulated_actions == together.cost.simulated_actions == limit
