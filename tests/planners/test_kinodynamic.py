@@ -241,13 +241,10 @@ def test_a_state_that_nothing_blocks_does_not_keep_from_growing_towards_ones_tha
         poses = task.start.poses.copy()
         poses[LONE_AND_ASIDE.index("o0"), :2] = EASY.initial_state().positions[EASY.index("o0")]
         blocked = Transition(replace(task.start, poses=poses), Motion(1.0))
-        assert growing._opened(growing._tree.child(ROOT, drive.action, blocked)) is None
+        child = growing._tree.child(ROOT, drive.action, blocked)
+        assert growing._opened(child) is None
         assert growing._drawn(drive).moved == "o0"
-        assert [
-            node.value
-            for node in growing._tree.explored(ROOT).nodes
-            if node.action is None or node.action is drive.action
-        ] == [None, -1.0]
+        assert (growing._tree[ROOT].value, growing._tree[child].value) == (None, -1.0)
 
 
 class Disturbing(PlanningWorld):
@@ -299,3 +296,12 @@ def test_grtc_does_not_go_on_from_a_push_that_went_wrong(wrong: str) -> None:
     assert pushes
     assert all(node.closed and node.parent == ROOT for node in pushes)
     assert plan.status is Status.FAILED
+
+
+@pytest.mark.slow
+@pytest.mark.needs_ompl
+def test_grtc_solves_an_easy_scene_with_its_other_search_too() -> None:
+    plan = planned("grtc-kinodynamic", seed=0, search="kpiece1")
+    assert plan.status is Status.RETRIEVED, plan.reason
+    assert [action.kind for action in plan.actions] == [ActionKind.PUSH, ActionKind.GRASP]
+    assert plan != planned("grtc-kinodynamic", seed=0)
