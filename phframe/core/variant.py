@@ -81,4 +81,6 @@ def _shortened(text: str) -> str:
 def _text(value: Any) -> str:
     if isinstance(value, list | tuple):
         return f"[{','.join(_text(each) for each in value)}]"
+    if isinstance(value, bool):
+        return str(value).lower()
     return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else str(value)

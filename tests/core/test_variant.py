@@ -39,6 +39,10 @@ def test_a_long_value_is_shortened_and_told_from_others() -> None:
     assert one != two
 
 
+def test_truth_is_written_as_on_the_command_line() -> None:
+    assert variant_name("phia", {"grasp_first": True}) == "phia[grasp_first=true]"
+
+
 def test_a_plain_name_has_no_options() -> None:
     assert split_variant("./mine.py:Mine") == ("./mine.py:Mine", {})
 
