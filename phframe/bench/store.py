@@ -18,6 +18,8 @@ from phframe.core.paths import path_shown
 
 FILE = "results.sqlite"
 """What the file is called in a bench's directory."""
+FILES = (FILE, *(f"{FILE}-{part}" for part in ("wal", "shm", "journal")))
+"""This file and those that SQLite has beside it."""
 FORMAT = 1
 """Of the tables, as the database's ``user_version``; a file of another one is refused."""
 BUSY = 60.0
@@ -147,7 +149,11 @@ class ResultStore:
 
     def find(self, *words: str) -> list[TrialResult]:
         """The results that are meant by the beginning of a key, or by a problem, planner and seed; retired ones left out."""
-        where = "key GLOB ? || '*'" if len(words) == 1 else "problem = ? AND planner = ? AND CAST(seed AS TEXT) = ?"
+        where = (
+            "substr(key, 1, length(?1)) = ?1 AND ?1 <> ''"
+            if len(words) == 1
+            else "problem = ? AND planner = ? AND CAST(seed AS TEXT) = ?"
+        )
         query = f"SELECT {_ALL} FROM results WHERE {where} AND NOT retired ORDER BY {_ORDER}"
         with _told(self.path):
             return [from_row(row) for row in self._connection.execute(query, words)]

@@ -11,9 +11,10 @@ from typing import Any
 
 from phframe.bench.bench_plan import BenchPlan
 from phframe.bench.conflicts import Accept
+from phframe.bench.directory_lock import LOCK
 from phframe.bench.session import BenchSession, Scheduler, Selected, select_trials, to_run
 from phframe.bench.settings import BenchSettings
-from phframe.bench.store import ResultStore
+from phframe.bench.store import FILES, ResultStore
 from phframe.bench.summary import summary
 from phframe.cli.bench_progress import BenchProgress
 from phframe.cli.bench_tables import summary_table, trial_table
@@ -67,7 +68,7 @@ def run_bench(settings: BenchSettings, output: BenchOutput) -> int:
     accepted = [_accepted(text) for text in output.accept]
     _check_scheduler(output)
     there = output.out is not None and ResultStore.is_in(output.out)
-    directory = None if there else RunDirectory(output.out)
+    directory = None if there else RunDirectory(output.out, own=(LOCK, *FILES))
     plan = BenchPlan.of(settings)
     if output.only_list:
         return _list(plan, output)

@@ -56,6 +56,7 @@ def test_results_come_back_in_order_and_none_is_there_twice(store: ResultStore, 
         assert reader.result("3") == results[3]
     assert store.find("1") == [each for each in order if each.key in ("1", "10", "11")]
     assert [each.key for each in store.find("s/1", "a", "1")] == ["1", "7"]
+    assert [store.find(words) for words in ("", "*", "?", "[0-9]", "1*")] == [[]] * 5
 
 
 def test_a_result_can_take_the_place_of_an_earlier_one_and_of_its_fault(store: ResultStore) -> None:

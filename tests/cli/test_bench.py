@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,7 @@ from typing import Any
 import pytest
 
 from phframe.bench.bench_plan import BenchPlan
+from phframe.bench.directory_lock import LOCK
 from phframe.bench.session import BenchSession
 from phframe.bench.store import FILE, ResultStore
 from phframe.bench.trial_result import TrialEnd
@@ -201,6 +203,37 @@ def test_a_directory_of_something_else_is_refused(invoke: Invoke) -> None:
     assert result.exit_code == 2
     assert "--out mine is not empty" in result.stderr
     assert [each.name for each in Path("mine").iterdir()] == ["thesis.tex"]
+
+
+def left_lock(folder: Path) -> None:
+    (folder / LOCK).touch()
+
+
+def left_empty_file(folder: Path) -> None:
+    left_lock(folder)
+    (folder / FILE).touch()
+
+
+def left_empty_database(folder: Path) -> None:
+    """As it is before its tables are made: the process that made it was killed."""
+    left_lock(folder)
+    code = (
+        f"import os, sqlite3; sqlite3.connect({str(folder / FILE)!r}).execute('PRAGMA journal_mode = WAL'); os._exit(9)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=False)
+    assert (folder / FILE).stat().st_size > 0
+
+
+@pytest.mark.parametrize("left", [left_lock, left_empty_file, left_empty_database])
+def test_where_the_start_was_cut_short_the_same_command_goes_on(invoke: Invoke, left: Callable[[Path], None]) -> None:
+    Path("here").mkdir()
+    left(Path("here"))
+    listed = invoke(*SMALL, *HERE, "--list", "--json")
+    assert listed.exit_code == 0, listed.stderr
+    assert len(json.loads(listed.stdout)["trials"]) == 6
+    result = invoke(*SMALL, *HERE, "--filter", "no such trial")
+    assert (result.exit_code, result.stderr.splitlines()[0]) == (0, "results in here: 0 of 6 trials to run")
+    assert ResultStore.is_in("here")
 
 
 @pytest.mark.parametrize("content", [b"rubbish", b"SQLite format 3\0" + b"rubbish" * 2000])
