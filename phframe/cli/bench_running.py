@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from phframe.bench.bench_plan import BenchPlan
-from phframe.bench.conflicts import Accept
+from phframe.bench.conflicts import accepted
 from phframe.bench.directory_lock import LOCK
 from phframe.bench.session import BenchSession, Scheduler, Selected, select_trials, to_run
 from phframe.bench.settings import BenchSettings
@@ -22,7 +22,7 @@ from phframe.cli.console import emit, note, show
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.needs import require
 from phframe.cli.run_directory import RunDirectory
-from phframe.core import OptionError, UnknownNameError
+from phframe.core import OptionError
 from phframe.core.paths import path_shown
 
 FORMAT = 1
@@ -65,7 +65,7 @@ def run_bench(settings: BenchSettings, output: BenchOutput) -> int:
     Raises:
         PhframeError: If something asked for cannot be used; nothing was run then. Or the results cannot be written.
     """
-    accepted = [_accepted(text) for text in output.accept]
+    differences = accepted(output.accept)
     _check_scheduler(output)
     there = output.out is not None and ResultStore.is_in(output.out)
     directory = None if there else RunDirectory(output.out, own=(LOCK, *FILES))
@@ -74,15 +74,8 @@ def run_bench(settings: BenchSettings, output: BenchOutput) -> int:
         return _list(plan, output)
     path = output.out if there or directory is None else directory.make("bench", *settings.suites)
     assert path is not None, "either there or made"
-    with BenchSession(path, plan, accepted) as session:
+    with BenchSession(path, plan, differences) as session:
         return _run(session, path, output)
-
-
-def _accepted(text: str) -> Accept:
-    known = [each.value for each in Accept]
-    if text not in known:
-        raise UnknownNameError("difference", text, known, "That is what --accept takes.")
-    return Accept(text)
 
 
 def _check_scheduler(output: BenchOutput) -> None:
@@ -137,6 +130,8 @@ def _run(session: BenchSession, path: Path, output: BenchOutput) -> int:
     numbers = to_run(select_trials(session.plan, session.store, output.wanted), retry=output.retry)
     if not output.quiet:
         note(f"results in {path_shown(path)}: {len(numbers)} of {len(session.plan)} trials to run")
+        if session.left_out:
+            note(f"results kept but left out, of other settings or of scenes that have changed: {session.left_out}")
     try:
         with (
             BenchProgress(session.plan.settings.planners, len(numbers), shown=not output.quiet) as progress,

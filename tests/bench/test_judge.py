@@ -53,6 +53,8 @@ def test_an_episode_is_measured(episode: Episode) -> None:
     assert found["displacement"] == pytest.approx(sum(moved))
     assert found["largest_displacement"] == pytest.approx(max(moved))
     assert max(moved) > 0.01
+    assert found["deviations"] == episode.deviations
+    assert {type(name) for name in found["deviations"]} <= {str}
     assert found["pushes"] == len(episode.steps) - 1 == 2
     assert found["largest_force"] == max(step.motion.largest_force for step in episode.steps)
     assert (found["claimed"], found["status"], found["retrieved"], found["clean"]) == (

@@ -69,11 +69,26 @@ def test_a_result_can_take_the_place_of_an_earlier_one_and_of_its_fault(store: R
 def test_what_is_no_longer_planned_is_kept_and_left_out(store: ResultStore) -> None:
     for key in "ab":
         store.add(a_result(key))
-    store.set_plan(settings(seeds=3), ["b", "c"], {"s/1": "x"})
+    assert store.set_plan(settings(seeds=3), ["b", "c"], {"s/1": "x"}) == 1
     assert [each.key for each in store.results()] == ["b"]
     assert (store.done(), store.settings.seeds, store.problems()) == ({"a", "b"}, 3, {"s/1": "x"})
-    store.set_plan(settings(), ["a"], {})
+    assert store.set_plan(settings(), ["a"], {"s/1": "x"}) == 1
     assert [each.key for each in store.results()] == ["a"]
+
+
+def test_results_count_for_the_scene_that_they_are_on_only(tmp_path: Path) -> None:
+    store = ResultStore.create(tmp_path, settings(), {"s/1": "old", "s/2": "same"})
+    store.add(a_result("a", pushes=1, end=TrialEnd.CRASHED), fault="of the old scene")
+    store.add(a_result("b", problem="s/2"))
+    assert store.set_plan(settings(), ["a", "b"], {"s/1": "new", "s/2": "same"}) == 1
+    assert ([each.key for each in store.results()], store.result("a"), store.fault("a")) == (["b"], None, "")
+    store.add(a_result("a", pushes=2))
+    for gone, left_out in (({}, 2), ({"s/1": "newer"}, 0)):
+        assert store.set_plan(settings(), ["a"], gone) == left_out
+        assert (store.result("a"), list(store.results())) == (None, [])
+    for digest, pushes, fault in (("old", 1, "of the old scene"), ("new", 2, ""), ("old", 1, "of the old scene")):
+        store.set_plan(settings(), ["a"], {"s/1": digest})
+        assert [(each.key, each.pushes, store.fault(each.key)) for each in store.results()] == [("a", pushes, fault)]
 
 
 def test_environments_are_kept_once_each_in_their_order(store: ResultStore) -> None:
