@@ -6,6 +6,7 @@ import json
 from collections.abc import Collection
 from contextlib import closing
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +87,9 @@ def _check_scheduler(output: BenchOutput) -> None:
         raise OptionError(
             "--workers is for this machine: a cluster has the workers that were started for it. Leave it out."
         )
+    from phframe.bench.schedulers.dask_ import check_address
+
+    check_address(output.scheduler)
 
 
 def _scheduler(session: BenchSession, output: BenchOutput) -> Scheduler:
@@ -93,7 +97,12 @@ def _scheduler(session: BenchSession, output: BenchOutput) -> Scheduler:
         return session.local(output.workers)
     from phframe.bench.schedulers.dask_ import cluster_scheduler
 
-    return cluster_scheduler(output.scheduler, session.plan)
+    return cluster_scheduler(output.scheduler, session.plan, partial(_say_that_it_waits, output))
+
+
+def _say_that_it_waits(output: BenchOutput) -> None:
+    if not output.quiet:
+        note(f"waiting for workers: {output.scheduler} has none yet; start them with: dask worker {output.scheduler}")
 
 
 def _list(plan: BenchPlan, output: BenchOutput) -> int:
@@ -107,10 +116,17 @@ def _list(plan: BenchPlan, output: BenchOutput) -> int:
 
 
 def _print_list(selected: Collection[Selected], output: BenchOutput) -> None:
+    if not selected:
+        _say_that_none_matches(output)
     if output.as_json:
         emit(json.dumps({"format": FORMAT, "trials": [_listed(each) for each in selected]}))
-    elif not output.quiet:
+    elif selected and not output.quiet:
         show(trial_table(selected))
+
+
+def _say_that_none_matches(output: BenchOutput) -> None:
+    if not output.quiet:
+        note(f"no trial matches --filter {output.wanted!r}")
 
 
 def _listed(selected: Selected) -> dict[str, Any]:
@@ -128,6 +144,8 @@ def _listed(selected: Selected) -> dict[str, Any]:
 
 def _run(session: BenchSession, path: Path, output: BenchOutput) -> int:
     numbers = to_run(select_trials(session.plan, session.store, output.wanted), retry=output.retry)
+    if not numbers and next(select_trials(session.plan, session.store, output.wanted), None) is None:
+        _say_that_none_matches(output)
     if not output.quiet:
         note(f"results in {path_shown(path)}: {len(numbers)} of {len(session.plan)} trials to run")
         if session.left_out:

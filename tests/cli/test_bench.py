@@ -236,6 +236,16 @@ def left_empty_database(folder: Path) -> None:
     assert (folder / FILE).stat().st_size > 0
 
 
+def test_a_filter_that_nothing_matches_is_told(invoke: Invoke, finished: Path) -> None:
+    for where in ((), ("--out", finished)):
+        listed = invoke(*SMALL, *where, "--list", "--filter", "zebra")
+        assert (listed.exit_code, listed.stdout, listed.stderr) == (0, "", "no trial matches --filter 'zebra'\n")
+        assert json.loads(invoke(*SMALL, *where, "--list", "--json", "--filter", "zebra").stdout)["trials"] == []
+    result = invoke(*SMALL, "--out", finished, "--filter", "zebra")
+    assert "no trial matches --filter 'zebra'" in result.stderr.splitlines()
+    assert "no trial matches" not in invoke(*SMALL, "--out", finished, "--filter", "phia").stderr
+
+
 @pytest.mark.parametrize("left", [left_lock, left_empty_file, left_empty_database])
 def test_where_the_start_was_cut_short_the_same_command_goes_on(invoke: Invoke, left: Callable[[Path], None]) -> None:
     Path("here").mkdir()
@@ -244,7 +254,7 @@ def test_where_the_start_was_cut_short_the_same_command_goes_on(invoke: Invoke, 
     assert listed.exit_code == 0, listed.stderr
     assert len(json.loads(listed.stdout)["trials"]) == 6
     result = invoke(*SMALL, *HERE, "--filter", "no such trial")
-    assert (result.exit_code, result.stderr.splitlines()[0]) == (0, "results in here: 0 of 6 trials to run")
+    assert (result.exit_code, result.stderr.splitlines()[1]) == (0, "results in here: 0 of 6 trials to run")
     assert ResultStore.is_in("here")
 
 
