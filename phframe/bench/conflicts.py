@@ -10,7 +10,7 @@ from typing import Any
 
 from phframe.bench.environment import Environment
 from phframe.bench.settings import BenchSettings
-from phframe.core import InputError
+from phframe.core import InputError, UnknownNameError
 from phframe.core.paths import path_shown
 
 _SHOWN = 4
@@ -106,6 +106,18 @@ def environment_differences(before: Environment, now: Environment) -> Iterator[B
     yield from (BenchDifference(Accept.CODE, f"the source of {name} is another one") for name in changed)
     machines = [{name: getattr(each, name) for name in ("system", "cpu", "cores", "memory")} for each in (before, now)]
     yield from (BenchDifference(Accept.MACHINE, what) for what in _changes(*machines))
+
+
+def accepted(names: Collection[str]) -> list[Accept]:
+    """What is accepted, by its names.
+
+    Raises:
+        UnknownNameError: If one is none.
+    """
+    known = [each.value for each in Accept]
+    if unknown := [name for name in names if name not in known]:
+        raise UnknownNameError("difference", unknown[0], known, "That is what --accept takes.")
+    return [Accept(name) for name in names]
 
 
 def refused(differences: Collection[BenchDifference], accepted: Collection[Accept]) -> list[BenchDifference]:

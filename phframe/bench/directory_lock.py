@@ -8,7 +8,8 @@ from pathlib import Path
 from phframe.bench.store import StoreError
 from phframe.core.paths import path_shown
 
-_FILE = "lock"
+LOCK = "lock"
+"""What the file is called that is locked."""
 
 
 class DirectoryLock:
@@ -25,7 +26,7 @@ class DirectoryLock:
         import fcntl  # none on Windows
 
         try:
-            self._handle = os.open(directory / _FILE, os.O_RDWR | os.O_CREAT, 0o666)
+            self._handle = os.open(directory / LOCK, os.O_RDWR | os.O_CREAT, 0o666)
         except OSError as error:
             why = error.strerror or str(error)
             raise StoreError(f"cannot write to {path_shown(directory)}: {why[:1].lower()}{why[1:]}") from None

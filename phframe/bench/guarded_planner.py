@@ -34,14 +34,18 @@ class GuardedPlanner(Planner[Options]):
         Raises:
             PluginError: If the planner changed what it was given, or returned something else than a plan.
         """
-        given = {name: deepcopy(getattr(task, name)) for name in _GIVEN}
+        with task.paused():
+            given = {name: deepcopy(getattr(task, name)) for name in _GIVEN}
         plan = self._planner.plan(task)
-        if changed := [name for name, value in given.items() if getattr(task, name) != value]:
+        with task.paused():
+            changed = [name for name, value in given.items() if getattr(task, name) != value]
+        if changed:
             raise PluginError(
                 f"planner {type(self._planner).__name__} changed what it was given: {', '.join(changed)}. A planner may "
                 "read its task, no more"
             )
         if not self._asked:
             self._asked = True
-            self.first_solution_time = task.first_solution_time or (plan.cost.total if plan.succeeded else None)
+            offered = task.first_solution_time
+            self.first_solution_time = plan.cost.total if offered is None and plan.succeeded else offered
         return plan

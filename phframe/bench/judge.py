@@ -44,7 +44,7 @@ def _outcome(episode: Episode) -> dict[str, Any]:
         "pushes": episode.pushes,
         "replans": episode.replans,
         "rejections": len(episode.rejections),
-        "deviations": dict(sorted(episode.deviations.items())),
+        "deviations": {str(name): count for name, count in sorted(episode.deviations.items())},
     }
 
 

@@ -38,10 +38,12 @@ class MergeSummary:
     Attributes:
         results: How many there are now.
         shared: How often a bench brought one that an earlier bench has.
+        left_out: How many are left out, for they are on another scene of the same name than the first bench's.
     """
 
     results: int
     shared: int
+    left_out: int = 0
 
 
 def merge_benches(
@@ -50,8 +52,8 @@ def merge_benches(
     """Write a new bench that holds the results of several, which stay as they are.
 
     A trial that several have is kept once, with the times of the first. Suites and planners are those of all, seeds the
-    most; whatever else differs and is accepted is the first one's. Results that are no part of their bench any more are
-    left out.
+    most; whatever else differs and is accepted is the first one's. Results that are no part of their bench any more, and
+    those on another scene than the first bench has under that name, are left out.
 
     Args:
         directories: The benches.
@@ -80,18 +82,23 @@ class _Merging:
     def __init__(self, merged: ResultStore, prefer: Preference | None) -> None:
         self._merged, self._prefer = merged, prefer
         self._refused: list[ResultDifference] = []
-        self._count = self._stored = self._shared = 0
+        self._scenes = merged.problems()
+        self._count = self._stored = self._shared = self._left_out = 0
 
     def all_of(self, stores: Sequence[ResultStore]) -> MergeSummary:
         """Take in all results of some stores."""
         for store in stores:
             for environment in store.environments().values():
                 self._merged.add_environment(environment)
+            other = {name for name, digest in store.problems().items() if self._scenes[name] != digest}
             for result in store.results():
-                self._take(result, store)
+                if result.problem in other:
+                    self._left_out += 1
+                else:
+                    self._take(result, store)
         if self._count:
             raise ResultConflictError(self._refused, self._count)
-        return MergeSummary(self._stored, self._shared)
+        return MergeSummary(self._stored, self._shared, self._left_out)
 
     def _take(self, result: TrialResult, store: ResultStore) -> None:
         if self._merged.add(result, fault=store.fault(result.key)):

@@ -16,7 +16,8 @@ from phframe.scenes.spec import is_file_spec
 FILES = "files"
 """The suite of the scenes that are files."""
 _RANGE = re.compile(r"(.*?)(\d+)\.\.(\d+)")
-_MOST = 1_000_000
+_MOST, _DIGITS = 1_000_000, 18
+"""Problems of a range, and digits of their numbers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +81,10 @@ def _matching(suite: str, pattern: str, options: Mapping[str, Any]) -> Sequence[
 def _numbered(before: str, first: str, last: str) -> Sequence[str]:
     """The names of a range, with as many leading zeros as its first has."""
     width = len(first) if first.startswith("0") else 1
-    numbers = range(int(first), int(last) + 1)
-    if not 0 < len(numbers) <= _MOST:
-        raise InputError(f"the range {first}..{last} holds no scene or too many: write it as in random/0..99")
-    return [f"{before}{number:0{width}}" for number in numbers]
+    short = max(len(first), len(last)) <= _DIGITS
+    if not (short and 0 <= int(last) - int(first) < _MOST):
+        told = "..".join(
+            each if len(each) <= _DIGITS else f"{each[:_DIGITS]}(and more digits)" for each in (first, last)
+        )
+        raise InputError(f"the range {told} holds no scene or too many: write it as in random/0..99")
+    return [f"{before}{number:0{width}}" for number in range(int(first), int(last) + 1)]

@@ -61,6 +61,7 @@ class BenchSession:
 
     Attributes:
         store: The results.
+        left_out: How many results that the bench had are kept, but no part of it any more.
 
     Raises:
         BenchConflictError: If the directory holds another bench.
@@ -74,7 +75,7 @@ class BenchSession:
         directory.mkdir(parents=True, exist_ok=True)
         self._lock = DirectoryLock(directory)
         try:
-            self.store = _store(directory, plan, self._environment, accepted)
+            self.store, self.left_out = _store(directory, plan, self._environment, accepted)
         except BaseException:
             self._lock.close()
             raise
@@ -145,31 +146,35 @@ def to_run(selected: Iterable[Selected], *, retry: bool = False) -> list[int]:
     ]
 
 
-def _store(directory: Path, plan: BenchPlan, environment: Environment, accepted: Collection[Accept]) -> ResultStore:
-    """The store in a directory, agreeing with a plan; a new one where there is none."""
+def _store(
+    directory: Path, plan: BenchPlan, environment: Environment, accepted: Collection[Accept]
+) -> tuple[ResultStore, int]:
+    """The store in a directory, agreeing with a plan, and how many of its results no longer count; else a new one."""
     if not ResultStore.is_in(directory):
-        return ResultStore.create(directory, plan.settings, plan.digests)
+        return ResultStore.create(directory, plan.settings, plan.digests), 0
     store = ResultStore.open(directory, read_only=False)
     try:
-        _reconcile(store, directory, plan, environment, accepted)
+        return store, _reconcile(store, directory, plan, environment, accepted)
     except BaseException:
         store.close()
         raise
-    return store
 
 
 def _reconcile(
     store: ResultStore, directory: Path, plan: BenchPlan, environment: Environment, accepted: Collection[Accept]
-) -> None:
+) -> int:
+    """Have a store say what a plan does: how many of its results no longer count.
+
+    Raises:
+        BenchConflictError: If they differ in what is not accepted.
+    """
     known = store.environments()
     differences = [
         *problem_differences(store.problems(), plan.digests),
         *setting_differences(store.settings, plan.settings),
     ]
-    planned = bool(differences)
     if known and environment.id not in known:
         differences += environment_differences(list(known.values())[-1], environment)
     if wrong := refused(differences, accepted):
         raise BenchConflictError(directory, wrong)
-    if planned:
-        store.set_plan(plan.settings, (trial.key for trial in plan.trials()), plan.digests)
+    return store.set_plan(plan.settings, (trial.key for trial in plan.trials()), plan.digests)

@@ -13,6 +13,8 @@ FORMAT = 1
 """Of settings as JSON: what changes the meaning of a field gets a new one."""
 MEMORY_LIMIT = 4096
 """MB of address space that a trial may have, where nothing else is said; the engines map a good part of 1 GB unused."""
+MOST_SEEDS, MOST_MEMORY = 1_000_000, 2**30
+"""Of a bench, and of a trial (MB)."""
 GRACE = 60.0
 """Seconds that a trial may take beyond one and a half times its planning: loading, carrying out, looking."""
 
@@ -60,9 +62,9 @@ class BenchSettings(Value):
         for name in ("suites", "planners"):
             if not getattr(self, name):
                 raise InputError(f"a bench without {name} has nothing to run: name at least one")
-        for name in ("seeds", "memory_limit"):
-            if getattr(self, name) < 1:
-                raise InputError(f"{name.replace('_', ' ')} must be 1 or more, not {getattr(self, name)!r}")
+        for name, most in (("seeds", MOST_SEEDS), ("memory_limit", MOST_MEMORY)):
+            if not 1 <= getattr(self, name) <= most:
+                raise InputError(f"{name.replace('_', ' ')} must be from 1 to {most}, not {getattr(self, name)!r}")
         if self.trial_limit is not None and not 0 < self.trial_limit < float("inf"):
             raise InputError(f"a trial limit of {self.trial_limit!r} s is none: give a number above 0")
         object.__setattr__(self, "options", {part: dict(given) for part, given in self.options.items() if given})

@@ -18,6 +18,8 @@ from phframe.core.paths import path_shown
 
 FILE = "results.sqlite"
 """What the file is called in a bench's directory."""
+FILES = (FILE, *(f"{FILE}-{part}" for part in ("wal", "shm", "journal")))
+"""This file and those that SQLite has beside it."""
 FORMAT = 1
 """Of the tables, as the database's ``user_version``; a file of another one is refused."""
 BUSY = 60.0
@@ -147,7 +149,11 @@ class ResultStore:
 
     def find(self, *words: str) -> list[TrialResult]:
         """The results that are meant by the beginning of a key, or by a problem, planner and seed; retired ones left out."""
-        where = "key GLOB ? || '*'" if len(words) == 1 else "problem = ? AND planner = ? AND CAST(seed AS TEXT) = ?"
+        where = (
+            "substr(key, 1, length(?1)) = ?1 AND ?1 <> ''"
+            if len(words) == 1
+            else "problem = ? AND planner = ? AND CAST(seed AS TEXT) = ?"
+        )
         query = f"SELECT {_ALL} FROM results WHERE {where} AND NOT retired ORDER BY {_ORDER}"
         with _told(self.path):
             return [from_row(row) for row in self._connection.execute(query, words)]
@@ -200,22 +206,52 @@ class ResultStore:
         with _told(self.path):
             return dict(self._connection.execute("SELECT name, digest FROM problems ORDER BY name").fetchall())
 
-    def set_plan(self, settings: BenchSettings, keys: Iterable[str], problems: Mapping[str, str]) -> None:
+    def set_plan(self, settings: BenchSettings, keys: Iterable[str], problems: Mapping[str, str]) -> int:
         """Say anew what the bench runs. Results of other trials are retired: kept, but no part of it.
+
+        So are those on another scene of the same name; they count again when the bench has that scene again.
 
         Args:
             settings: What it runs.
             keys: Of all its trials.
             problems: A digest of every scene, by ``suite/name``.
+
+        Returns:
+            How many results that were a part of it are none any more.
         """
         with self._transaction():
+            self._rename_by_scene(problems)
             self._connection.execute("UPDATE bench SET settings = ?", (settings.to_json(),))
             self._connection.execute("DELETE FROM problems")
             self._connection.executemany("INSERT INTO problems VALUES (?, ?)", problems.items())
             self._connection.execute("CREATE TEMP TABLE planned (key TEXT PRIMARY KEY)")
             self._connection.executemany("INSERT OR IGNORE INTO planned VALUES (?)", ((key,) for key in keys))
+            left_out = int(
+                self._one("SELECT count(*) FROM results WHERE NOT retired AND key NOT IN (SELECT key FROM planned)")
+            )
             self._connection.execute("UPDATE results SET retired = key NOT IN (SELECT key FROM planned)")
             self._connection.execute("DROP TABLE planned")
+        return left_out
+
+    def _rename_by_scene(self, problems: Mapping[str, str]) -> None:
+        """Give the results on scenes that go keys of no trial, ``key@digest``, and those on scenes that are back theirs."""
+        before = self.problems()
+        known = [
+            (key.partition("@"), problem)
+            for key, problem in self._connection.execute("SELECT key, problem FROM results")
+        ]
+        going = [
+            (f"{key}@{before[problem]}", key)
+            for (key, mark, _), problem in known
+            if not mark and problem in before and before[problem] != problems.get(problem)
+        ]
+        back = [
+            (key, f"{key}@{digest}")
+            for (key, mark, digest), problem in known
+            if mark and problems.get(problem) == digest
+        ]
+        for table in ("results", "faults"):
+            self._connection.executemany(f"UPDATE OR REPLACE {table} SET key = ? WHERE key = ?", [*going, *back])
 
     def _make(self, settings: BenchSettings, problems: Mapping[str, str]) -> None:
         """Make the tables, all at once."""

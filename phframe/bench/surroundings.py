@@ -21,8 +21,11 @@ from phframe.registry.from_file import is_file
 from phframe.runtime.versions import versions_of
 
 _ROOT = Path(phframe.__file__).parent
-_NO_SAY = ("cli", "recorders", "testing", "bench/report", "bench/export", "bench/meters", "bench/schedulers")
-"""Parts of phframe that change no result."""
+_NO_SAY = (
+    *(f"{folder}/" for folder in ("cli", "recorders", "testing")),
+    *(f"bench/{what}" for what in ("report/", "export/", "meters/", "schedulers/", "merge", "statistics", "summary")),
+)
+"""How the names of phframe's files begin that change no result."""
 _LENGTH = 16
 
 
@@ -42,8 +45,17 @@ def surroundings(specs: Iterable[RunSpec]) -> Environment:
 
 
 def _own_files() -> list[Path]:
-    files = [path.relative_to(_ROOT).as_posix() for path in _ROOT.rglob("*.py")]
-    return [_ROOT / name for name in sorted(files) if not name.startswith(tuple(f"{part}/" for part in _NO_SAY))]
+    return [path for path in code_files(_ROOT) if not path.relative_to(_ROOT).as_posix().startswith(_NO_SAY)]
+
+
+def code_files(package: Path) -> list[Path]:
+    """The files of a package that may change results: its code and its data, without what Python keeps of the code.
+
+    Args:
+        package: Its directory.
+    """
+    files = [path.relative_to(package).as_posix() for path in package.rglob("*") if path.is_file()]
+    return [package / name for name in sorted(files) if "__pycache__/" not in name and not name.endswith(".pyc")]
 
 
 def _foreign_code(specs: Iterable[RunSpec]) -> Iterator[tuple[str, str]]:
@@ -64,7 +76,7 @@ def _package(target: str) -> list[Path]:
     if found is None or found.origin is None:
         return []
     origin = Path(found.origin)
-    return sorted(origin.parent.rglob("*.py")) if origin.name == "__init__.py" else [origin]
+    return code_files(origin.parent) if origin.name == "__init__.py" else [origin]
 
 
 def _digest(files: Iterable[Path]) -> str:

@@ -24,6 +24,8 @@ TAIL = 8192
 """Bytes that are kept of what a trial prints: the last ones."""
 METHOD = "forkserver"
 """How processes are made: from one that has imported already, and nothing else: no thread, no open database."""
+_LONGEST_WAIT = 3600.0
+"""Seconds; systems can wait for so long at a time."""
 _READS, _PIECE = 32, 65536
 """Reads at a time, and bytes of each."""
 _THREADS = (
@@ -104,8 +106,8 @@ class TrialProcess:
 
     @property
     def seconds_left(self) -> float:
-        """Until it is overdue."""
-        return max(0.0, self._began + self._limits.seconds - time.monotonic())
+        """Until it is overdue; an hour if that is farther away: then it is to be listened to anyway."""
+        return min(max(0.0, self._began + self._limits.seconds - time.monotonic()), _LONGEST_WAIT)
 
     def listen(self) -> bool:
         """Take in what it wrote, kill it if it is overdue, and say whether it has ended."""

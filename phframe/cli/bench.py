@@ -56,9 +56,17 @@ Planners = Annotated[
         "phia",
     ),
 ]
-Seeds = Annotated[int, flag("INTEGER", "How many seeds: each problem is run with 0, 1 and so on.", min=1)]
+Seeds = Annotated[
+    int, flag("INTEGER", "How many seeds: each problem is run with 0, 1 and so on.", min=1, max=1_000_000)
+]
 MemoryLimit = Annotated[
-    int, flag("MB", "Most memory of a trial: address space of its process, of which engines map much unused.", min=256)
+    int,
+    flag(
+        "MB",
+        "Most memory of a trial: address space of its process, of which engines map much unused.",
+        min=256,
+        max=2**30,
+    ),
 ]
 TrialLimit = Annotated[
     float | None,
@@ -70,7 +78,9 @@ TrialLimit = Annotated[
         callback=finite,
     ),
 ]
-Workers = Annotated[int, flag("INTEGER", "Trials that run at once on this machine; each uses one core.", min=1)]
+Workers = Annotated[
+    int, flag("INTEGER", "Trials that run at once on this machine; each uses one core.", min=1, max=4096)
+]
 Address = Annotated[
     str | None,
     flag("ADDRESS", "Run the trials on a Dask cluster, as in tcp://10.0.0.1:8786 (extra 'cluster').", "this machine"),

@@ -33,15 +33,13 @@ def merge(directories: Directories, out: Out, accept: Accept = None, prefer: Pre
 
     A trial that several have is kept once. Suites and planners are those of all benches, seeds the most that one has.
     """
-    from phframe.bench.conflicts import Accept as Accepted
+    from phframe.bench.conflicts import accepted
     from phframe.bench.merge import Preference, merge_benches
     from phframe.cli.console import note
     from phframe.core import InputError, UnknownNameError
     from phframe.core.paths import path_shown, user_path
 
-    for name in accept or ():
-        if name not in list(Accepted):
-            raise UnknownNameError("difference", name, list(Accepted), "That is what --accept takes.")
+    differences = accepted(accept or ())
     if prefer is not None and prefer not in list(Preference):
         raise UnknownNameError("preference", prefer, list(Preference))
     if len(directories) < 2:
@@ -50,10 +48,12 @@ def merge(directories: Directories, out: Out, accept: Accept = None, prefer: Pre
     summary = merge_benches(
         [user_path(each) for each in directories],
         place,
-        accept=[Accepted(name) for name in accept or ()],
+        accept=differences,
         prefer=None if prefer is None else Preference(prefer),
     )
     note(
         f"wrote {path_shown(place)}: {summary.results} results; {summary.shared} that a later bench brought again are in it "
         "once"
     )
+    if summary.left_out:
+        note(f"results left out, for an earlier bench has another scene of the same name: {summary.left_out}")

@@ -6,14 +6,16 @@ import json
 from collections.abc import Collection
 from contextlib import closing
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from phframe.bench.bench_plan import BenchPlan
-from phframe.bench.conflicts import Accept
+from phframe.bench.conflicts import accepted
+from phframe.bench.directory_lock import LOCK
 from phframe.bench.session import BenchSession, Scheduler, Selected, select_trials, to_run
 from phframe.bench.settings import BenchSettings
-from phframe.bench.store import ResultStore
+from phframe.bench.store import FILES, ResultStore
 from phframe.bench.summary import summary
 from phframe.cli.bench_progress import BenchProgress
 from phframe.cli.bench_tables import summary_table, trial_table
@@ -21,7 +23,7 @@ from phframe.cli.console import emit, note, show
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.needs import require
 from phframe.cli.run_directory import RunDirectory
-from phframe.core import OptionError, UnknownNameError
+from phframe.core import OptionError
 from phframe.core.paths import path_shown
 
 FORMAT = 1
@@ -64,24 +66,17 @@ def run_bench(settings: BenchSettings, output: BenchOutput) -> int:
     Raises:
         PhframeError: If something asked for cannot be used; nothing was run then. Or the results cannot be written.
     """
-    accepted = [_accepted(text) for text in output.accept]
+    differences = accepted(output.accept)
     _check_scheduler(output)
     there = output.out is not None and ResultStore.is_in(output.out)
-    directory = None if there else RunDirectory(output.out)
+    directory = None if there else RunDirectory(output.out, own=(LOCK, *FILES))
     plan = BenchPlan.of(settings)
     if output.only_list:
         return _list(plan, output)
     path = output.out if there or directory is None else directory.make("bench", *settings.suites)
     assert path is not None, "either there or made"
-    with BenchSession(path, plan, accepted) as session:
+    with BenchSession(path, plan, differences) as session:
         return _run(session, path, output)
-
-
-def _accepted(text: str) -> Accept:
-    known = [each.value for each in Accept]
-    if text not in known:
-        raise UnknownNameError("difference", text, known, "That is what --accept takes.")
-    return Accept(text)
 
 
 def _check_scheduler(output: BenchOutput) -> None:
@@ -92,6 +87,9 @@ def _check_scheduler(output: BenchOutput) -> None:
         raise OptionError(
             "--workers is for this machine: a cluster has the workers that were started for it. Leave it out."
         )
+    from phframe.bench.schedulers.dask_ import check_address
+
+    check_address(output.scheduler)
 
 
 def _scheduler(session: BenchSession, output: BenchOutput) -> Scheduler:
@@ -99,7 +97,12 @@ def _scheduler(session: BenchSession, output: BenchOutput) -> Scheduler:
         return session.local(output.workers)
     from phframe.bench.schedulers.dask_ import cluster_scheduler
 
-    return cluster_scheduler(output.scheduler, session.plan)
+    return cluster_scheduler(output.scheduler, session.plan, partial(_say_that_it_waits, output))
+
+
+def _say_that_it_waits(output: BenchOutput) -> None:
+    if not output.quiet:
+        note(f"waiting for workers: {output.scheduler} has none yet; start them with: dask worker {output.scheduler}")
 
 
 def _list(plan: BenchPlan, output: BenchOutput) -> int:
@@ -113,10 +116,17 @@ def _list(plan: BenchPlan, output: BenchOutput) -> int:
 
 
 def _print_list(selected: Collection[Selected], output: BenchOutput) -> None:
+    if not selected:
+        _say_that_none_matches(output)
     if output.as_json:
         emit(json.dumps({"format": FORMAT, "trials": [_listed(each) for each in selected]}))
-    elif not output.quiet:
+    elif selected and not output.quiet:
         show(trial_table(selected))
+
+
+def _say_that_none_matches(output: BenchOutput) -> None:
+    if not output.quiet:
+        note(f"no trial matches --filter {output.wanted!r}")
 
 
 def _listed(selected: Selected) -> dict[str, Any]:
@@ -134,8 +144,12 @@ def _listed(selected: Selected) -> dict[str, Any]:
 
 def _run(session: BenchSession, path: Path, output: BenchOutput) -> int:
     numbers = to_run(select_trials(session.plan, session.store, output.wanted), retry=output.retry)
+    if not numbers and next(select_trials(session.plan, session.store, output.wanted), None) is None:
+        _say_that_none_matches(output)
     if not output.quiet:
         note(f"results in {path_shown(path)}: {len(numbers)} of {len(session.plan)} trials to run")
+        if session.left_out:
+            note(f"results kept but left out, of other settings or of scenes that have changed: {session.left_out}")
     try:
         with (
             BenchProgress(session.plan.settings.planners, len(numbers), shown=not output.quiet) as progress,

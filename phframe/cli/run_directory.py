@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from datetime import datetime
 from itertools import count
 from pathlib import Path
@@ -19,16 +20,17 @@ class RunDirectory:
     Args:
         asked: The directory; it must be new or empty. None: a new one in ``runs/``.
         keep: Whether there is to be one at all.
+        own: Names of files that may be in it: what an earlier start that was cut short has left.
 
     Raises:
         InputError: If it exists and is not an empty directory.
     """
 
-    def __init__(self, asked: Path | None, *, keep: bool = True) -> None:
-        self._asked, self.keep = asked, keep
+    def __init__(self, asked: Path | None, *, keep: bool = True, own: Collection[str] = ()) -> None:
+        self._asked, self.keep, self._own = asked, keep, own
         self.path: Path | None = None
         if asked is not None:
-            _check_free(asked)
+            _check_free(asked, own)
 
     def make(self, *names: str) -> Path:
         """Make the directory.
@@ -41,7 +43,7 @@ class RunDirectory:
         """
         wanted = self._asked or RUNS
         try:
-            self.path = _make_new(RUNS, names) if self._asked is None else _make(self._asked)
+            self.path = _make_new(RUNS, names) if self._asked is None else _make(self._asked, self._own)
         except OSError as error:
             raise cannot_write(wanted, error) from None
         return self.path
@@ -61,11 +63,11 @@ def cannot_write(path: Path, error: OSError) -> InputError:
     )
 
 
-def _check_free(path: Path) -> None:
+def _check_free(path: Path, own: Collection[str]) -> None:
     try:
         if path.exists() and not path.is_dir():
             raise InputError(f"--out {path} is a file. Name a directory that is new or empty.")
-        if path.is_dir() and any(path.iterdir()):
+        if path.is_dir() and any(each.name not in own for each in path.iterdir()):
             raise InputError(
                 f"--out {path} is not empty, and nothing is overwritten. Name a new directory or empty it."
             )
@@ -73,9 +75,9 @@ def _check_free(path: Path) -> None:
         raise cannot_write(path, error if isinstance(error, OSError) else OSError(str(error))) from None
 
 
-def _make(path: Path) -> Path:
+def _make(path: Path, own: Collection[str]) -> Path:
     path.mkdir(parents=True, exist_ok=True)
-    _check_free(path)
+    _check_free(path, own)
     return path
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
@@ -150,6 +151,15 @@ class Task:
             return None
         return Steering(self._steered, self._begin_steering, self._simulated)
 
+    @contextmanager
+    def paused(self) -> Iterator[None]:
+        """The clock stands still in this ``with``: for what is no planning, such as watching a planner or asking somebody."""
+        began = time.perf_counter()
+        try:
+            yield
+        finally:
+            self._began += time.perf_counter() - began
+
     def ask(self, question: Question) -> Hint | None:
         """What whoever can be asked says is to be moved next; None: there is no hint. The clock stands still meanwhile.
 
@@ -157,11 +167,8 @@ class Task:
             BudgetExceededError: If the budget is spent: nothing could be tried of what is said.
         """
         self._spend(1)
-        began = time.perf_counter()
-        try:
+        with self.paused():
             return self._advisor.advise(question)
-        finally:
-            self._began += time.perf_counter() - began
 
     def diagram(self, points: FloatArray) -> PersistenceDiagram:
         """The persistence diagram of points ``(n, 2)`` (m)."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from copy import deepcopy
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -53,6 +55,8 @@ def test_an_episode_is_measured(episode: Episode) -> None:
     assert found["displacement"] == pytest.approx(sum(moved))
     assert found["largest_displacement"] == pytest.approx(max(moved))
     assert max(moved) > 0.01
+    assert found["deviations"] == episode.deviations
+    assert {type(name) for name in found["deviations"]} <= {str}
     assert found["pushes"] == len(episode.steps) - 1 == 2
     assert found["largest_force"] == max(step.motion.largest_force for step in episode.steps)
     assert (found["claimed"], found["status"], found["retrieved"], found["clean"]) == (
@@ -84,6 +88,21 @@ def test_the_first_plan_that_was_worth_carrying_out_is_timed() -> None:
     assert found.status is Status.RETRIEVED
     assert 0 < (planner.first_solution_time or 0) < found.plans[0].cost.total
     assert carry_out(RunSpec("vieira/simple-01"))["first_solution_time"] > 0
+
+
+def test_watching_a_planner_is_no_planning_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = [0.0]
+
+    def slow_copy(value: Any) -> Any:
+        clock[0] += 1000.0
+        return deepcopy(value)
+
+    monkeypatch.setattr("phframe.core.task.time", SimpleNamespace(perf_counter=lambda: clock[0]))
+    monkeypatch.setattr("phframe.bench.guarded_planner.deepcopy", slow_copy)
+    planner = GuardedPlanner(PHIA(PHIAOptions()))
+    found = run(RunSpec("vieira/simple-01", planner=planner))
+    assert clock[0] >= 5000.0
+    assert (found.status, found.cost.total, planner.first_solution_time) == (Status.RETRIEVED, 0.0, 0.0)
 
 
 def test_where_there_was_no_plan_there_is_no_time_of_the_first() -> None:

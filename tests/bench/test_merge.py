@@ -204,6 +204,20 @@ def test_other_scenes_of_one_name_are_refused(folder: Path) -> None:
         assert store.problems() == {"vieira/basic": "aa", "a": "aa", "b": "bb"}
 
 
+def test_results_on_two_scenes_of_one_name_are_not_mixed(folder: Path) -> None:
+    benches = []
+    for name, numbers in (("aa", {1, 5}), ("bb", {1, 2, 9})):
+        directory = folder / name
+        with ResultStore.create(directory, SETTINGS, {"random/000": name}) as store:
+            store.add_environment(ENVIRONMENT)
+            assert all(store.add(replace(result, pushes=len(numbers))) for result in of(numbers))
+        benches.append(directory)
+    assert merge_benches(benches, folder / "ab", accept=[Accept.SUITES]) == MergeSummary(3, 0, 2)
+    assert {each.key: each.pushes for each in results(folder / "ab")} == {
+        synthetic_result(number).key: pushes for number, pushes in ((1, 2), (5, 2), (9, 3))
+    }
+
+
 def test_what_is_no_bench_and_a_directory_in_use_are_refused(folder: Path) -> None:
     benches: Sequence[Path] = [written_store(folder / "a", of({1})), folder / "nothing"]
     with pytest.raises(StoreError, match="holds no bench"):

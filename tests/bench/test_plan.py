@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+import phframe
 from phframe.bench.bench_plan import BenchPlan
 from phframe.bench.conflicts import (
     KIND_OF,
@@ -21,7 +22,7 @@ from phframe.bench.conflicts import (
 from phframe.bench.environment import Environment
 from phframe.bench.selection import select_problems
 from phframe.bench.settings import BenchSettings
-from phframe.bench.surroundings import surroundings
+from phframe.bench.surroundings import _own_files, code_files, surroundings
 from phframe.core import InputError, Loop, OptionError, RunSpec, UnknownNameError
 from tests.bench.benches import misbehaving, settings
 
@@ -137,10 +138,15 @@ def test_what_no_suite_has_is_told_with_what_it_has(asked: str) -> None:
         select_problems([asked], {})
 
 
-@pytest.mark.parametrize("asked", ["random/5..4", "random/0..99999999"])
+@pytest.mark.parametrize(
+    "asked",
+    ["random/5..4", "random/0..99999999", "random/0..99999999999999999999", f"random/{'9' * 5000}..{'9' * 5000}"],
+    ids=lambda asked: asked[:20],
+)
 def test_a_range_that_is_none_is_refused(asked: str) -> None:
-    with pytest.raises(InputError, match=r"write it as in random/0\.\.99"):
+    with pytest.raises(InputError, match=r"write it as in random/0\.\.99") as told:
         select_problems([asked], {})
+    assert len(str(told.value)) < 200
 
 
 def test_the_same_planner_twice_is_refused_whatever_it_is_called() -> None:
@@ -149,7 +155,16 @@ def test_the_same_planner_twice_is_refused_whatever_it_is_called() -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"seeds": 0}, {"planners": ()}, {"memory_limit": 0}, {"trial_limit": 0.0}, {"trial_limit": float("nan")}]
+    "wrong",
+    [
+        {"seeds": 0},
+        {"seeds": 10**20},
+        {"memory_limit": 10**20},
+        {"planners": ()},
+        {"memory_limit": 0},
+        {"trial_limit": 0.0},
+        {"trial_limit": float("nan")},
+    ],
 )
 def test_settings_out_of_range_are_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(InputError):
@@ -159,6 +174,22 @@ def test_settings_out_of_range_are_refused(wrong: dict[str, Any]) -> None:
 def test_where_nothing_is_said_a_trial_has_its_planning_time_and_half_of_it_and_a_minute() -> None:
     assert settings(loop=Loop(time_limit=300.0)).kill_after == 510.0
     assert settings(trial_limit=9.0).kill_after == 9.0
+
+
+def test_code_is_all_that_a_package_holds_but_what_python_keeps_of_it(tmp_path: Path) -> None:
+    for name in ("__init__.py", "data/table.csv", "__pycache__/__init__.pyc", "data/__pycache__/x.txt", "old.pyc"):
+        (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
+        (tmp_path / name).touch()
+    assert code_files(tmp_path) == [tmp_path / "__init__.py", tmp_path / "data/table.csv"]
+
+
+def test_the_code_of_phframe_is_what_may_change_results() -> None:
+    root = Path(phframe.__file__).parent
+    names = {path.relative_to(root).as_posix() for path in _own_files()}
+    assert {"core/task.py", "bench/judge.py", "bench/child.py"} <= names
+    assert any(name.startswith("scenes/data/") for name in names)
+    idle = ("cli/", "bench/report/", "bench/export/", "bench/merge", "bench/statistics", "bench/summary")
+    assert [name for name in names if name.startswith(idle)] == []
 
 
 def test_the_surroundings_name_versions_code_and_machine() -> None:

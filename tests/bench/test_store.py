@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import sqlite3
+from collections.abc import Callable
 from dataclasses import fields, replace
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -12,6 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import phframe.bench.store as store_module
 from phframe.bench.environment import Environment
 from phframe.bench.rows import from_row, to_row
 from phframe.bench.settings import BenchSettings
@@ -56,6 +59,7 @@ def test_results_come_back_in_order_and_none_is_there_twice(store: ResultStore, 
         assert reader.result("3") == results[3]
     assert store.find("1") == [each for each in order if each.key in ("1", "10", "11")]
     assert [each.key for each in store.find("s/1", "a", "1")] == ["1", "7"]
+    assert [store.find(words) for words in ("", "*", "?", "[0-9]", "1*")] == [[]] * 5
 
 
 def test_a_result_can_take_the_place_of_an_earlier_one_and_of_its_fault(store: ResultStore) -> None:
@@ -68,11 +72,26 @@ def test_a_result_can_take_the_place_of_an_earlier_one_and_of_its_fault(store: R
 def test_what_is_no_longer_planned_is_kept_and_left_out(store: ResultStore) -> None:
     for key in "ab":
         store.add(a_result(key))
-    store.set_plan(settings(seeds=3), ["b", "c"], {"s/1": "x"})
+    assert store.set_plan(settings(seeds=3), ["b", "c"], {"s/1": "x"}) == 1
     assert [each.key for each in store.results()] == ["b"]
     assert (store.done(), store.settings.seeds, store.problems()) == ({"a", "b"}, 3, {"s/1": "x"})
-    store.set_plan(settings(), ["a"], {})
+    assert store.set_plan(settings(), ["a"], {"s/1": "x"}) == 1
     assert [each.key for each in store.results()] == ["a"]
+
+
+def test_results_count_for_the_scene_that_they_are_on_only(tmp_path: Path) -> None:
+    store = ResultStore.create(tmp_path, settings(), {"s/1": "old", "s/2": "same"})
+    store.add(a_result("a", pushes=1, end=TrialEnd.CRASHED), fault="of the old scene")
+    store.add(a_result("b", problem="s/2"))
+    assert store.set_plan(settings(), ["a", "b"], {"s/1": "new", "s/2": "same"}) == 1
+    assert ([each.key for each in store.results()], store.result("a"), store.fault("a")) == (["b"], None, "")
+    store.add(a_result("a", pushes=2))
+    for gone, left_out in (({}, 2), ({"s/1": "newer"}, 0)):
+        assert store.set_plan(settings(), ["a"], gone) == left_out
+        assert (store.result("a"), list(store.results())) == (None, [])
+    for digest, pushes, fault in (("old", 1, "of the old scene"), ("new", 2, ""), ("old", 1, "of the old scene")):
+        store.set_plan(settings(), ["a"], {"s/1": digest})
+        assert [(each.key, each.pushes, store.fault(each.key)) for each in store.results()] == [("a", pushes, fault)]
 
 
 def test_environments_are_kept_once_each_in_their_order(store: ResultStore) -> None:
@@ -127,6 +146,72 @@ def _filled(folder: Path, room: int, fault: str) -> tuple[list[str], bool]:
                 return acknowledged, False
             acknowledged.append(str(number))
     return acknowledged, True
+
+
+WRITES: dict[str, Callable[[ResultStore], object]] = {
+    "set_plan": lambda store: store.set_plan(
+        settings(seeds=7), map(str, range(500)), {f"s/{number}": "new" for number in range(400)}
+    ),
+    "add_environment": lambda store: store.add_environment(Environment({"x" * 20_000: "1"})),
+}
+
+
+def content(store: ResultStore) -> tuple[Any, ...]:
+    """All that a store says."""
+    results = list(store.results())
+    faults = [store.fault(each.key) for each in results]
+    return store.settings, store.problems(), store.environments(), store.done(), results, faults
+
+
+@pytest.mark.parametrize("write", WRITES)
+def test_wherever_the_disk_is_full_a_write_is_whole_or_nothing(tmp_path: Path, write: str) -> None:
+    for room in count():
+        with ResultStore.create(tmp_path / str(room), settings(), {"s/1": "old"}) as store:
+            store.add(a_result("a"), fault="why")
+            store.add(a_result("b", problem="s/2"))
+            before = content(store)
+            (pages,) = store._connection.execute("PRAGMA page_count").fetchone()
+            store._connection.execute(f"PRAGMA max_page_count = {pages + room}")
+            try:
+                WRITES[write](store)
+            except StoreError as error:
+                assert "disk is full" in str(error)  # noqa: PT017
+                assert content(store) == before
+                store._connection.execute("PRAGMA max_page_count = 9999")
+                WRITES[write](store)
+                assert content(store) != before
+                continue
+            assert content(store) != before
+            assert room > 1
+            return
+
+
+def test_wherever_the_disk_is_full_a_store_is_made_whole_or_not_at_all(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    connected, scenes = store_module._connected, {f"s/{number}": "x" for number in range(400)}
+    for pages in count(1):
+        with monkeypatch.context() as patch:
+            patch.setattr(store_module, "_connected", partial(limited, connected, pages))
+            try:
+                ResultStore.create(tmp_path, settings(), scenes).close()
+            except StoreError as error:
+                assert "disk is full" in str(error)  # noqa: PT017
+                assert not ResultStore.is_in(tmp_path)
+                continue
+        with ResultStore.open(tmp_path) as store:
+            assert (store.settings, store.problems()) == (settings(), scenes)
+        assert pages > 10
+        return
+
+
+def limited(
+    connected: Callable[..., sqlite3.Connection], pages: int, path: Path, *, read_only: bool
+) -> sqlite3.Connection:
+    """A connection to a file of so many pages at most."""
+    connection = connected(path, read_only=read_only)
+    connection.execute(f"PRAGMA max_page_count = {pages}")
+    return connection
 
 
 def test_a_file_that_cannot_be_used_is_told_in_one_line(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,7 @@ from typing import Any
 import pytest
 
 from phframe.bench.bench_plan import BenchPlan
+from phframe.bench.directory_lock import LOCK
 from phframe.bench.session import BenchSession
 from phframe.bench.store import FILE, ResultStore
 from phframe.bench.trial_result import TrialEnd
@@ -91,6 +93,13 @@ def test_without_a_directory_a_new_one_is_made(invoke: Invoke) -> None:
     (folder,) = Path("runs").iterdir()
     assert folder.name.endswith("-bench-vieira-simple-01")
     assert len(rows(folder)) == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("words", [("--time-limit", "1e10"), ("--trial-limit", "1e300"), ("--time-limit", "1.7e308")])
+def test_a_limit_may_be_longer_than_a_system_can_wait(invoke: Invoke, words: tuple[str, str]) -> None:
+    result = invoke("bench", "vieira/simple-01", *words, *HERE)
+    assert (result.exit_code, len(rows("here"))) == (0, 1), result.stderr
 
 
 @pytest.mark.slow
@@ -174,13 +183,18 @@ def test_other_versions_and_code_are_refused_until_they_are_accepted(
         (["vieira", "--workers", "0"], "greater than or equal to 1"),
         (["vieira", "--seeds", "0"], "greater than or equal to 1"),
         (["vieira", "--memory-limit", "1"], "greater than or equal to 256"),
+        (["vieira", "--workers", "9" * 20], "4096"),
+        (["vieira", "--seeds", "9" * 20], "1000000"),
+        (["vieira", "--memory-limit", "9" * 20], "1073741824"),
+        (["random/0.." + "9" * 20], "write it as in random/0..99"),
+        (["random/" + "9" * 5000], "random"),
         (["vieira", "--trial-limit", "inf"], "not a finite number"),
         (["vieira", "--accept", "version"], "Did you mean 'versions'?"),
         (["--planner", "phia"], "missing argument 'SUITE...'"),
         (["replay", "absent", "k"], "holds no bench"),
         (["replay", "absent", "a", "b"], "three words"),
     ],
-    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+    ids=lambda value: " ".join(value)[:60] if isinstance(value, list) else "",
 )
 def test_bad_input_is_one_clear_line_before_anything_runs(
     invoke: Invoke, workplace: Path, words: list[str], said: str
@@ -201,6 +215,47 @@ def test_a_directory_of_something_else_is_refused(invoke: Invoke) -> None:
     assert result.exit_code == 2
     assert "--out mine is not empty" in result.stderr
     assert [each.name for each in Path("mine").iterdir()] == ["thesis.tex"]
+
+
+def left_lock(folder: Path) -> None:
+    (folder / LOCK).touch()
+
+
+def left_empty_file(folder: Path) -> None:
+    left_lock(folder)
+    (folder / FILE).touch()
+
+
+def left_empty_database(folder: Path) -> None:
+    """As it is before its tables are made: the process that made it was killed."""
+    left_lock(folder)
+    code = (
+        f"import os, sqlite3; sqlite3.connect({str(folder / FILE)!r}).execute('PRAGMA journal_mode = WAL'); os._exit(9)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=False)
+    assert (folder / FILE).stat().st_size > 0
+
+
+def test_a_filter_that_nothing_matches_is_told(invoke: Invoke, finished: Path) -> None:
+    for where in ((), ("--out", finished)):
+        listed = invoke(*SMALL, *where, "--list", "--filter", "zebra")
+        assert (listed.exit_code, listed.stdout, listed.stderr) == (0, "", "no trial matches --filter 'zebra'\n")
+        assert json.loads(invoke(*SMALL, *where, "--list", "--json", "--filter", "zebra").stdout)["trials"] == []
+    result = invoke(*SMALL, "--out", finished, "--filter", "zebra")
+    assert "no trial matches --filter 'zebra'" in result.stderr.splitlines()
+    assert "no trial matches" not in invoke(*SMALL, "--out", finished, "--filter", "phia").stderr
+
+
+@pytest.mark.parametrize("left", [left_lock, left_empty_file, left_empty_database])
+def test_where_the_start_was_cut_short_the_same_command_goes_on(invoke: Invoke, left: Callable[[Path], None]) -> None:
+    Path("here").mkdir()
+    left(Path("here"))
+    listed = invoke(*SMALL, *HERE, "--list", "--json")
+    assert listed.exit_code == 0, listed.stderr
+    assert len(json.loads(listed.stdout)["trials"]) == 6
+    result = invoke(*SMALL, *HERE, "--filter", "no such trial")
+    assert (result.exit_code, result.stderr.splitlines()[1]) == (0, "results in here: 0 of 6 trials to run")
+    assert ResultStore.is_in("here")
 
 
 @pytest.mark.parametrize("content", [b"rubbish", b"SQLite format 3\0" + b"rubbish" * 2000])
@@ -358,3 +413,34 @@ def completed(words: str) -> list[str]:
     *before, last = words.split(" ")
     completion = BashComplete(command, {}, "phframe", "_PHFRAME_COMPLETE")
     return [item.value for item in completion.get_completions(before, last)]
+
+
+@pytest.mark.slow
+def test_a_trial_whose_scene_has_changed_is_run_again(invoke: Invoke) -> None:
+    content = (Path(__file__).parents[2] / "docs/examples/three-cups.yaml").read_text()
+    Path("mine.yaml").write_text(content)
+    words = ("bench", "mine.yaml", *HERE)
+    assert "1 of 1 trials to run" in invoke(*words, "--quiet", "--list").stderr + invoke(*words).stderr
+    Path("mine.yaml").write_text(content.replace("name: three-cups", "name: other-cups"))
+    assert "--accept suites" in invoke(*words).stderr
+    again = invoke(*words, "--accept", "suites", "--json")
+    assert again.stderr.splitlines() == [
+        "results in here: 1 of 1 trials to run",
+        "results kept but left out, of other settings or of scenes that have changed: 1",
+    ]
+    assert [line["trials"] for line in json.loads(again.stdout)["summary"]] == [1]
+    assert "0 of 1 trials to run" in invoke(*words).stderr
+
+
+@pytest.mark.slow
+def test_after_a_merge_only_trials_of_the_bench_are_counted(invoke: Invoke, finished: Path) -> None:
+    failing = (*SMALL, "--option", "backend.step=0.002", "--trial-limit", "0.001")
+    assert invoke(*failing, "--filter", "*simple-01", "--out", "other", "--quiet").exit_code == 1
+    assert invoke("bench", "merge", finished, "other", "--out", "here", "--accept", "options").exit_code == 0
+    assert len(rows("here")) == 8
+    result = invoke(*SMALL, *HERE, "--json")
+    assert (result.exit_code, [line["trials"] for line in json.loads(result.stdout)["summary"]]) == (0, [3, 3])
+    assert "of other settings or of scenes that have changed: 2" in result.stderr
+    assert "left out" not in invoke(*SMALL, *HERE).stderr
+    with ResultStore.open("here") as store:
+        assert len(store.done()) == 8

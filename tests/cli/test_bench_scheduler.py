@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Invoke
+from tests.cli.conftest import Invoke, Run
 
 COMMAND = ("bench", "vieira/basic", "--scheduler", "tcp://127.0.0.1:1", "--out", "results")
 
@@ -20,6 +20,19 @@ def test_without_dask_the_line_that_installs_it_is_told(
     result = invoke(*COMMAND)
     assert (result.exit_code, result.stdout) == (3, "")
     assert "a bench on a cluster needs distributed, which is not installed. " in result.stderr
+    assert list(workplace.iterdir()) == []
+
+
+@pytest.mark.needs_cluster
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "address", ["localhost", "", " ", "tcp://10.0.0.1", "tcp://:8786", "foo://x:1", "tcp://x:0", "x:99999"]
+)
+def test_what_is_no_address_is_refused_before_anything_is_made(run: Run, workplace: Path, address: str) -> None:
+    pytest.importorskip("distributed")
+    result = run("bench", "vieira/basic", "--scheduler", address, "--out", "results")  # is ended after a minute
+    assert (result.returncode, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+    assert f"no Dask scheduler at {address!r}: " in result.stderr
     assert list(workplace.iterdir()) == []
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import closing, suppress
 from functools import partial
 from itertools import islice
@@ -30,19 +30,39 @@ class ClusterError(PhframeError):
     """A cluster that lost trials: they have no result and are run when the bench is started again."""
 
 
-def cluster_scheduler(address: str, plan: BenchPlan) -> Scheduler:
+def check_address(address: str) -> None:
+    """Refuse what is no address of a scheduler: Dask would start a cluster here, or try for ever to reach it.
+
+    Raises:
+        NotInstalledError: If Dask is not installed.
+        InputError: If it is none.
+    """
+    try:
+        from distributed.comm.addressing import get_address_host_port
+    except ImportError as error:
+        raise _not_installed() from error
+    try:
+        host, port = get_address_host_port(address)
+        if not host or not 0 < port < 2**16:
+            raise ValueError(f"{host}:{port} is none of a computer and a port")
+    except (ValueError, TypeError, NotImplementedError) as error:
+        raise _no_scheduler(address, error) from None
+
+
+def cluster_scheduler(address: str, plan: BenchPlan, waits: Callable[[], object] = lambda: None) -> Scheduler:
     """What runs the trials of a bench on the workers of a cluster.
 
     Args:
         address: Of its scheduler.
         plan: The bench.
+        waits: Called if the cluster has no worker yet.
     """
     look = partial(surroundings, tuple(plan.specs.values()))
-    return lambda trials, limits: run_on_cluster(address, trials, WorkerSpec.of(look, limits, plan.modules))
+    return lambda trials, limits: run_on_cluster(address, trials, WorkerSpec.of(look, limits, plan.modules), waits)
 
 
 def run_on_cluster(
-    address: str, trials: Iterable[Trial], spec: WorkerSpec
+    address: str, trials: Iterable[Trial], spec: WorkerSpec, waits: Callable[[], object] = lambda: None
 ) -> Generator[tuple[Trial, Ending], None, None]:
     """Run trials and tell of each as it ends, and where. Close the iterator to take back those that wait.
 
@@ -52,6 +72,7 @@ def run_on_cluster(
         address: Of the scheduler, such as ``tcp://10.0.0.1:8786``.
         trials: The trials; each is taken when the scheduler gets it.
         spec: What the workers have to be.
+        waits: Called if there is no worker yet; the trials wait for one.
 
     Raises:
         NotInstalledError: If Dask is not installed.
@@ -60,6 +81,8 @@ def run_on_cluster(
         ClusterError: At the end, if there are trials whose workers died each time; or if the scheduler is lost.
     """
     with closing(_connected(address)) as client:
+        if not client.scheduler_info()["workers"]:
+            waits()
         _examine_all(client, spec)
         yield from _Submission(client, spec).run(iter(trials))
 
@@ -138,21 +161,27 @@ def _connected(address: str) -> Any:
 
     Raises:
         NotInstalledError: If Dask is not installed.
-        InputError: If none answers at this address.
+        InputError: If it is no address, or none answers there.
     """
-    try:
-        from distributed import Client
-    except ImportError as error:
-        remedy = 'pip install "phframe[cluster]"'
-        raise NotInstalledError("a bench on a cluster", "distributed", remedy) from error
+    check_address(address)
+    from distributed import Client
+
     try:
         return Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
-        why = " ".join(str(error).split()) or "it does not answer"
-        raise InputError(
-            f"no Dask scheduler at {address!r}: {why}. Give the address that it tells when it starts, such as "
-            "tcp://10.0.0.1:8786"
-        ) from None
+        raise _no_scheduler(address, error) from None
+
+
+def _not_installed() -> NotInstalledError:
+    return NotInstalledError("a bench on a cluster", "distributed", 'pip install "phframe[cluster]"')
+
+
+def _no_scheduler(address: str, error: Exception) -> InputError:
+    why = " ".join(str(error).split()) or "it does not answer"
+    return InputError(
+        f"no Dask scheduler at {address!r}: {why}. Give the address that it tells when it starts, such as "
+        "tcp://10.0.0.1:8786"
+    )
 
 
 def _examine_all(client: Any, spec: WorkerSpec) -> None:

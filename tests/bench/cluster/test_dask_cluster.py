@@ -109,6 +109,15 @@ def test_a_trial_that_crashes_costs_itself_only(cluster: DaskCluster, planners: 
     assert all(worker.poll() is None for worker in cluster.workers)
 
 
+def test_where_there_is_no_worker_yet_that_is_told_once_and_the_trials_wait(tmp_path: Path) -> None:
+    with dask_cluster(tmp_path, 0) as own:
+        came: list[Any] = []
+        spec = WorkerSpec.of(look, LIMITS)
+        with closing(run_on_cluster(own.address, trials(2), spec, lambda: came.append(own.start_worker()))) as endings:
+            assert len(list(endings)) == 2
+        assert len(came) == 1
+
+
 def test_who_stops_listening_leaves_the_cluster_free(cluster: DaskCluster) -> None:
     with closing(results_on(cluster, trials(500))) as ran:
         next(ran)
