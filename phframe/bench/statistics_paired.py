@@ -88,7 +88,8 @@ def _exact_signed_rank(differences: Sequence[float]) -> float:
     for rank in ranks:
         ways[rank:] += ways[:-rank].copy()
     observed = ranks[np.array(differences) > 0].sum()
-    return min(1.0, 2 * float(min(ways[: observed + 1].sum(), ways[observed:].sum())) / 2 ** len(ranks))
+    tail = min(int(ways[: observed + 1].sum()), int(ways[observed:].sum()))
+    return min(1.0, 2.0 * tail / 2.0 ** len(ranks))
 
 
 def holm(probabilities: Sequence[float]) -> list[float]:

@@ -71,7 +71,8 @@ def _line(planner: str, suite: str, tally: SummaryTally) -> SummaryLine:
     from phframe.bench.statistics import success_rate  # scipy takes a second to import
 
     rate = success_rate(tally.by_scene)
-    assert rate.low is not None and rate.high is not None, "there is a line for what has results only"
+    assert rate.low is not None, "there is a line only for what has results"
+    assert rate.high is not None
     pushes = fmean(tally.pushes) if tally.pushes else None
     seconds = median(tally.planning_times) if tally.planning_times else None
     retrieved = sum(map(sum, tally.by_scene.values()))

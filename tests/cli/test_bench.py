@@ -282,6 +282,19 @@ def test_a_planner_in_a_file_is_repeated_only_if_it_is_given(invoke: Invoke) -> 
 
 
 @pytest.mark.slow
+def test_any_part_in_a_file_is_repeated_only_if_it_is_given(invoke: Invoke) -> None:
+    Path("goals.py").write_text("from phframe.pushing.retrieve import Retrieve\nclass Mine(Retrieve):\n    pass\n")
+    name = "./goals.py:Mine"
+    assert invoke("bench", "vieira/simple-01", "--planner", "phia", "--goal", name, *HERE).exit_code == 0
+    words = ("bench", "replay", "here", "vieira/simple-01", "phia", "0", "--no-rerun")
+    refused = invoke(*words)
+    assert refused.exit_code == 2
+    assert f"give it yourself, as in --goal {name}" in refused.stderr
+    assert invoke(*words, "--goal", name).stdout.startswith("the same: ")
+    assert "is not the plan backend of the trial" in invoke(*words, "--plan-backend", "mujoco").stderr
+
+
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
 def test_after_kill_9_no_child_lives_on_and_it_goes_on_where_it_was(spawn: Spawn, run: Run) -> None:
     hanging = f"{misbehaving('ForksAndHangs')}[mark=ids]"
