@@ -11,7 +11,7 @@ from typing import Any
 from phframe.bench.child import described
 from phframe.bench.judge import measured
 from phframe.bench.store import ResultStore
-from phframe.bench.trial_result import TrialEnd, TrialResult
+from phframe.bench.trial_result import TrialEnd, TrialResult, spec_of
 from phframe.cli.console import emit, note
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.run import RunOutput, carry_out, show_recording
@@ -73,7 +73,7 @@ def _the_one(found: Sequence[TrialResult], bench: Path, words: Sequence[str]) ->
 
 def _spec(before: TrialResult, parts: Mapping[str, str | None]) -> RunSpec:
     """The trial's run; a part given takes the place of a class in a file of the same name only."""
-    spec = RunSpec.from_json(before.spec)
+    spec = spec_of(before)
     wanted: dict[str, Any] = {part: name for part, name in parts.items() if name is not None}
     for part, name in wanted.items():
         if name != (known := getattr(spec, part)):
