@@ -114,9 +114,10 @@ class Task:
         """``apply`` to many pairs, spread over workers where there are some; the results in the order of the pairs.
 
         Raises:
-            BudgetExceededError: As ``apply``.
+            BudgetExceededError: As ``apply``; before any is simulated, where the budget does not allow all of them.
         """
         if (many := self._apply_many) is None:
+            self._spend(len(pairs))
             return [self.apply(state, action, stop=stop) for state, action in pairs]
         return self._simulated(lambda: list(many(pairs, stop)), len(pairs))
 

@@ -11,6 +11,8 @@ from phframe.core import FloatArray, rotation_matrix
 
 SIDES = {"behind": math.pi, "its left": math.pi / 2.0, "its right": -math.pi / 2.0}
 """Where the fingertip stands, seen from the object along the way to its place (rad)."""
+BESIDE = 0.03
+"""Distance of the fingertip from the edge of an object that it is to push (m)."""
 
 
 def approach_poses(

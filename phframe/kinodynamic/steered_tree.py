@@ -8,10 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from phframe.core import Condition, FloatArray, Motion, State, Steering, Stop
+from phframe.core import FloatArray, Motion, Shelf, State, Steering, Stop, Transition
+from phframe.kinodynamic.faults import fault_of
 
 NOTHING = Motion(0.0)
 """What happened before the first control."""
+IN_ROOM = 0.15
+"""How far before the mouth the fingertip may be (m)."""
+MOST_YAW = 0.7
+"""Greatest yaw of the gripper to either side (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +50,11 @@ class Room:
 
     lower: FloatArray
     upper: FloatArray
+
+    @classmethod
+    def of(cls, shelf: Shelf) -> Room:
+        """From a little before the mouth of a shelf to its walls, the gripper turned no farther than it can push."""
+        return cls(np.array([-IN_ROOM, 0.0, -MOST_YAW]), np.array([shelf.depth, shelf.width, MOST_YAW]))
 
     def with_pose(self, pose: FloatArray) -> Room:
         """The room, made large enough to hold a pose ``(3,)``."""
@@ -143,18 +153,11 @@ class SteeredTree:
             start.snapshot, twist, step, opening=self._opening, stop=Stop(wall=True)
         )
         state = self._steering.state_of(snapshot)
-        return SteeredNode(snapshot, state, index, twist, motion, _fault(start.state, state, motion))
+        fault = fault_of(start.state, Transition(state, motion), at_rest=False)
+        return SteeredNode(snapshot, state, index, twist, motion, fault)
 
     def _upwards(self, index: int) -> Iterator[int]:
         row: int | None = index
         while row is not None:
             yield row
             row = self._nodes[row].parent
-
-
-def _fault(before: State, after: State, motion: Motion) -> str:
-    """What rules a step out: the arm stalls or meets a wall, or something falls, over or off the board."""
-    if not motion.complete:
-        return str(motion.stopped or f"stalled at {motion.largest_force:.0f} N")
-    fallen = [new for old, new in zip(before.conditions, after.conditions, strict=True) if new is not old]
-    return f"something {fallen[0]}" if any(each is not Condition.UPRIGHT for each in fallen) else ""

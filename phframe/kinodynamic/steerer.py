@@ -71,10 +71,6 @@ class Steerer:
         """The snapshot of a state at rest; a parked arm begins where it is parked."""
         return self._steering.begin(state)
 
-    def state_of(self, snapshot: Any) -> State:
-        """What a snapshot holds, its speeds aside."""
-        return self._steering.state_of(snapshot)
-
     def leg(self, snapshot: Any, region: Region, *, opening: float, bias: float, most: int) -> SteeredLeg:
         """Steer from a snapshot into a region, or as near to it as so many controls bring.
 

@@ -23,13 +23,14 @@ from phframe.core import (
     Transition,
 )
 from phframe.geometry.arm_view import ArmView
-from phframe.kinodynamic.approach_poses import approach_poses
+from phframe.kinodynamic.approach_poses import BESIDE, approach_poses
+from phframe.kinodynamic.faults import fault_of
 from phframe.kinodynamic.ompl_ import ControlSearch
 from phframe.kinodynamic.places import drawn_place
 from phframe.kinodynamic.region import GripperNear, ObjectNear, TargetInHand, pose_coordinates
 from phframe.kinodynamic.steered_actions import steered_push, steered_reach
 from phframe.kinodynamic.steered_decision import SteeredDecision
-from phframe.kinodynamic.steered_tree import Controls, Room
+from phframe.kinodynamic.steered_tree import MOST_YAW, Controls, Room
 from phframe.kinodynamic.steerer import SteeredLeg, Steerer
 from phframe.pushing import (
     Pushing,
@@ -48,12 +49,6 @@ ARRIVED = 0.04
 """How near to an approach pose is near enough, a radian counting as 0.1 m (m)."""
 PLACED = 0.1
 """How near to its place a blocker is pushed (m)."""
-BESIDE = 0.03
-"""Distance of an approaching fingertip from the edge of the object (m)."""
-IN_ROOM = 0.15
-"""How far before the mouth the fingertip may be steered (m)."""
-MOST_YAW = 0.7
-"""Greatest yaw of a steered gripper to either side (rad)."""
 
 Bias = Annotated[float, Field(ge=0.0, le=1.0)]
 Count = Annotated[int, Field(ge=1, le=1_000_000)]
@@ -122,7 +117,7 @@ class _KinodynamicClearing:
             drive = self._drive(before)
             if isinstance(drive, Infeasible):
                 return self._fail(node, drive.reason)
-            blocker = first_blocker(self._pushing, _parked(before), drive)
+            blocker = first_blocker(self._pushing, before.parked(), drive)
             if isinstance(blocker, Infeasible):
                 return self._fail(node, blocker.reason)
             if blocker is None:
@@ -189,7 +184,8 @@ class _KinodynamicClearing:
         """Steer to the target with open fingers, close them and draw it out; again while that fails and controls are left."""
         left, plan = self._options.reach_controls, self._fail(node, "no controls were left to reach the target")
         state = self._tree[node].state
-        steerer, region = self._steerer(state), self._in_hand(state, drive)
+        steerer = self._steerer(state)
+        region = self._in_hand(state, drive, steerer.room)
         opening = drive.action.path.rule(0).opening
         for attempt in range(self._options.attempts):
             start = steerer.begin(state)
@@ -221,15 +217,16 @@ class _KinodynamicClearing:
     def _drive(self, state: State) -> StraightDrive | Infeasible:
         if state.held is not None:
             return Infeasible(f"{state.held} is in the hand")
-        return straight_drive(self._pushing, _parked(state))
+        return straight_drive(self._pushing, state.parked())
 
     def _steerer(self, state: State) -> Steerer:
         """What steers from a state, in a room that holds where the fingertip is."""
-        shelf, o = self._scene.shelf, self._options
-        room = Room(np.array([-IN_ROOM, 0.0, -MOST_YAW]), np.array([shelf.depth, shelf.width, MOST_YAW]))
+        room = Room.of(self._scene.shelf)
         arm = self._steering.state_of(self._steering.begin(state)).arm
         assert arm is not None, "steering begins where the arm is"
-        return Steerer(self._steering, self._controls, room.with_pose(arm.gripper), o.search, self._task.rng)
+        return Steerer(
+            self._steering, self._controls, room.with_pose(arm.gripper), self._options.search, self._task.rng
+        )
 
     def _stands_free(self, state: State, row: int, pose: FloatArray, steerer: Steerer) -> bool:
         """Whether the arm at a pose keeps off the walls, and its fingertip off other objects."""
@@ -247,10 +244,10 @@ class _KinodynamicClearing:
         behind = -along / np.linalg.norm(along) * (float(self._scene.radii[row]) + BESIDE)
         return ObjectNear(row, decision.place, behind, float(decision.approach[2]), PLACED, *self._with_object(room))
 
-    def _in_hand(self, state: State, drive: StraightDrive) -> TargetInHand:
+    def _in_hand(self, state: State, drive: StraightDrive, room: Room) -> TargetInHand:
         """The region in which the target is between the fingers."""
         row = self._scene.target_index
-        bounds = self._with_object(self._steerer(state).room)
+        bounds = self._with_object(room)
         return TargetInHand(row, PAST, float(drive.tip[2]), state.positions[row], IN_HAND, *bounds)
 
     def _with_object(self, room: Room) -> tuple[FloatArray, FloatArray]:
@@ -261,11 +258,6 @@ class _KinodynamicClearing:
 
     def _fail(self, node: int, reason: str) -> Plan:
         return self._tree.plan(node, Status.FAILED, reason)
-
-
-def _parked(state: State) -> State:
-    """The state as the straight drive sees it, which comes in from outside wherever the arm is."""
-    return state.parked()
 
 
 def _noted(decision: SteeredDecision, legs: list[SteeredLeg], made: State, taken: int | None = None) -> SteeredDecision:
@@ -283,8 +275,6 @@ def _noted(decision: SteeredDecision, legs: list[SteeredLeg], made: State, taken
 
 def _fault(before: State, made: Transition) -> str:
     """Why a push is not gone on from."""
-    if not made.motion.complete:
-        return str(made.motion.stopped or f"stalled at {made.motion.largest_force:.0f} N")
-    if (before.on_board & ~made.state.on_board).any():
-        return "something spilled"
+    if fault := fault_of(before, made):
+        return fault
     return "nothing moved" if is_unchanged(before, made.state) else ""

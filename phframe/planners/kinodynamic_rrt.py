@@ -25,22 +25,16 @@ from phframe.core import (
     State,
     Status,
     Task,
-    Transition,
     controlled_path,
 )
-from phframe.kinodynamic.approach_poses import approach_poses
+from phframe.kinodynamic.approach_poses import BESIDE, approach_poses
+from phframe.kinodynamic.faults import fault_of
 from phframe.kinodynamic.paths import straight_back, way_out
 from phframe.kinodynamic.places import drawn_place
 from phframe.kinodynamic.region import pose_coordinates
-from phframe.kinodynamic.steered_tree import Room
+from phframe.kinodynamic.steered_tree import MOST_YAW, Room
 from phframe.pushing import Grasp, Pushing, PushingOptions, StraightDrive, straight_drive
 
-IN_ROOM = 0.15
-"""How far before the mouth the fingertip may go (m)."""
-MOST_YAW = 0.7
-"""Greatest yaw of the gripper to either side (rad)."""
-BESIDE = 0.03
-"""Distance of the fingertip from the edge of an object that it is to push (m)."""
 DRAWS = 100
 """How often an action is drawn that does not lead out of the room."""
 OUT_SPEED = 0.25
@@ -106,11 +100,10 @@ class _Growing:
         self._task, self._options = task, options
         self._pushing = Pushing(task, PushingOptions(half_width=options.half_width))
         self._scene, self._tree = self._pushing.scene, task.search_tree()
-        shelf = self._scene.shelf
-        self._room = Room(np.array([-IN_ROOM, 0.0, -MOST_YAW]), np.array([shelf.depth, shelf.width, MOST_YAW]))
+        self._room = Room.of(self._scene.shelf)
         self._rule = PhaseRule(options.speed, task.arm.min_opening, Contacts.OBJECTS)
         self._open: list[int] = []
-        self._blockers: dict[int, tuple[str, ...]] = {}
+        self._blockers: dict[int, tuple[str, ...]] = {}  # of the open nodes that objects keep from the grasp
 
     def run(self) -> Plan:
         """Grow the tree until the grasp succeeds."""
@@ -138,13 +131,16 @@ class _Growing:
             if plan is not None:
                 return plan
         self._open.append(node)
-        self._blockers[node] = grasp.blockers if isinstance(grasp, Infeasible) else ()
-        self._tree.rate(node, -float(len(self._blockers[node])))
+        if isinstance(grasp, Infeasible) and grasp.blockers:
+            self._blockers[node] = grasp.blockers
+            self._tree.rate(node, -float(len(grasp.blockers)))
         return None
 
     def _grasped(self, node: int) -> Plan | None:
         """Draw the arm out, grasp, and have the task's goal judge it; None where it does not succeed."""
         node = self._drawn_out(node)
+        if self._tree[node].closed:
+            return None
         problem = self._pushing.problem(self._tree[node].state)
         grasp = problem if isinstance(problem, Infeasible) else self._pushing.grasp(problem)
         if isinstance(grasp, Infeasible):
@@ -158,7 +154,7 @@ class _Growing:
         return None
 
     def _drawn_out(self, node: int) -> int:
-        """The node after drawing the arm straight out of the shelf; the same one where it is out."""
+        """The node after drawing the arm straight out of the shelf, closed if that went wrong; the same where it is out."""
         state = self._tree[node].state
         distance = 0.0 if state.arm is None else way_out(state.arm.gripper, self._task.arm)
         if state.arm is None or distance == 0.0:
@@ -167,7 +163,8 @@ class _Growing:
         action = Action(
             "draw back", straight_back(state.arm.gripper, distance, Phase.RETREAT, rule), kind=ActionKind.MOVE
         )
-        return self._tree.child(node, action, self._task.apply(state, action), Decision("the grasp begins outside"))
+        made, why = self._task.apply(state, action), Decision("the grasp begins outside")
+        return self._tree.child(node, action, made, why, closed=fault_of(state, made))
 
     def _drawn(self, drive: StraightDrive) -> DrawnConfiguration:
         """A configuration to grow towards: any, or one that is nearer to the goal."""
@@ -178,12 +175,15 @@ class _Growing:
         return DrawnConfiguration(positions, rng.uniform(self._room.lower, self._room.upper))
 
     def _better(self, drive: StraightDrive) -> DrawnConfiguration | None:
-        """As at the node with the fewest blockers, one of which stands at a free place, the gripper behind it."""
-        rng = self._task.rng
-        best = min(self._open, key=lambda node: (len(self._blockers[node]), -node))
-        blockers, state = self._blockers[best], self._tree[best].state
-        if not blockers:
+        """As at the node with the fewest blockers, one of which stands at a free place, the gripper behind it.
+
+        Nodes without any, from which the grasp is kept by a wall, was rejected or failed, say nothing about what to move.
+        """
+        if not self._blockers:
             return None
+        rng = self._task.rng
+        best = min(self._blockers, key=lambda node: (len(self._blockers[node]), -node))
+        blockers, state = self._blockers[best], self._tree[best].state
         moved = blockers[int(rng.integers(len(blockers)))]
         row = self._scene.index(moved)
         radius = float(self._scene.radii[row])
@@ -217,10 +217,12 @@ class _Growing:
         """Simulate actions drawn at a node; the new node nearest to a configuration, if any came of it."""
         state = self._tree[node].state
         actions = [action for _ in range(self._options.actions) if (action := self._action(state, wanted)) is not None]
+        left = self._task.simulations_left
+        actions = actions if left is None else actions[: max(left, 1)]
         made = self._task.apply_many([(state, action) for action in actions])
         decision = Decision(f"towards a configuration with {wanted.moved} aside" if wanted.moved else "towards any")
         rows = [
-            self._tree.child(node, action, each, decision, closed=_fault(state, each))
+            self._tree.child(node, action, each, decision, closed=fault_of(state, each))
             for action, each in zip(actions, made, strict=True)
         ]
         sound = [row for row in rows if not self._tree[row].closed]
@@ -245,14 +247,3 @@ class _Growing:
             if self._task.rejects(action) is None:
                 return action
         return None
-
-
-def _fault(before: State, made: Transition) -> str:
-    """Why a state is not gone on from: it is not at rest, or something fell, or the arm stalled or met a wall."""
-    motion, after = made.motion, made.state
-    if not motion.complete:
-        return str(motion.stopped or f"stalled at {motion.largest_force:.0f} N")
-    if not motion.settled:
-        return "not at rest"
-    fallen = [new for old, new in zip(before.conditions, after.conditions, strict=True) if new is not old]
-    return f"something {fallen[0]}" if fallen else ""

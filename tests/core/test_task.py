@@ -88,12 +88,12 @@ def test_simulations_end_exactly_at_the_limit() -> None:
     assert limited.cost.simulated_actions == 3
 
 
-def test_many_at_once_count_one_by_one() -> None:
+def test_many_that_would_overrun_are_not_begun_without_workers_either() -> None:
     limited = task(budget=Budget(simulations=3))
     assert len(limited.apply_many([(START, ACTION)] * 2)) == 2
     with pytest.raises(BudgetExceededError):
         limited.apply_many([(START, ACTION)] * 2)
-    assert limited.cost.simulated_actions == 3
+    assert limited.cost.simulated_actions == 2
 
 
 def test_workers_that_would_overrun_are_not_started() -> None:

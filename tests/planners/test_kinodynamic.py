@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from collections import Counter
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -14,10 +15,13 @@ import pytest
 
 from phframe.core import (
     ROOT,
+    Action,
     ActionKind,
     Assessment,
     Attempt,
     Budget,
+    Condition,
+    Motion,
     OptionError,
     Phase,
     Plan,
@@ -25,10 +29,14 @@ from phframe.core import (
     Shelf,
     State,
     Status,
+    Stop,
     Task,
+    Transition,
+    Watch,
 )
 from phframe.kinodynamic.steered_decision import SteeredDecision
-from phframe.pushing import Retrieve, RetrieveOptions
+from phframe.planners.kinodynamic_rrt import KinodynamicRRTOptions, _Growing
+from phframe.pushing import Pushing, PushingOptions, Retrieve, RetrieveOptions, StraightDrive, straight_drive
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.world import WorldSpec
@@ -37,13 +45,20 @@ from tests.pushing.parts import scene_of
 EASY = scene_of((0.25, 0.3), (0.12, 0.3))
 """One obstacle straight before a target that is not deep in the shelf."""
 LONE = scene_of((0.25, 0.3))
+LONE_AND_ASIDE = scene_of((0.25, 0.3), (0.25, 0.5))
+"""The one obstacle stands where it blocks nothing."""
 PLANNERS = [pytest.param("grtc-kinodynamic", marks=pytest.mark.needs_ompl), "kinodynamic-rrt"]
 both = pytest.mark.parametrize("planner", PLANNERS)
 SEED = 3
 
 
-def task_in(world: PlanningWorld, seed: int = SEED, simulations: int | None = 3000) -> Task:
-    topology, goal = create(Kind.TOPOLOGY, "ripser"), create(Kind.GOAL, "retrieve")
+def task_in(
+    world: PlanningWorld,
+    seed: int = SEED,
+    simulations: int | None = 3000,
+    goal: Retrieve | None = None,
+) -> Task:
+    topology, goal = create(Kind.TOPOLOGY, "ripser"), goal or create(Kind.GOAL, "retrieve")
     rng, budget = np.random.default_rng(seed), Budget(simulations=simulations)
     return world.task(world.scene.initial_state(), topology, rng, goal=goal, budget=budget)
 
@@ -203,3 +218,90 @@ def test_the_tree_keeps_every_push_that_was_tried_and_why_it_was_left() -> None:
 def test_impossible_options_are_refused() -> None:
     with pytest.raises(OptionError, match="actions"):
         create(Kind.PLANNER, "kinodynamic-rrt", {"actions": 0})
+
+
+def test_the_number_of_workers_does_not_change_what_a_budget_leads_to() -> None:
+    planner = create(Kind.PLANNER, "kinodynamic-rrt")
+    with PlanningWorld(WorldSpec(EASY)) as one, PlanningWorld(WorldSpec(EASY), workers=2) as two:
+        for limit in (1, 9, 10, 15, 21):
+            alone, together = (planner.plan(task_in(world, simulations=limit)) for world in (one, two))
+            assert alone == together
+            assert alone.cost.simulated_actions == together.cost.simulated_actions == limit
+
+
+def test_a_state_that_nothing_blocks_does_not_keep_from_growing_towards_ones_that_something_does() -> None:
+    """From the start the grasp fails though nothing blocks it; at the other node an object does."""
+    with PlanningWorld(WorldSpec(LONE_AND_ASIDE)) as world:
+        task = task_in(world, goal=NeverContent(RetrieveOptions()))
+        growing = _Growing(task, KinodynamicRRTOptions(goal_bias=1.0))
+        drive = straight_drive(Pushing(task, PushingOptions(half_width=0.12)), task.start)
+        assert isinstance(drive, StraightDrive)
+        assert growing._opened(ROOT) is None
+        assert not growing._drawn(drive).moved
+        poses = task.start.poses.copy()
+        poses[LONE_AND_ASIDE.index("o0"), :2] = EASY.initial_state().positions[EASY.index("o0")]
+        blocked = Transition(replace(task.start, poses=poses), Motion(1.0))
+        child = growing._tree.child(ROOT, drive.action, blocked)
+        assert growing._opened(child) is None
+        assert growing._drawn(drive).moved == "o0"
+        assert (growing._tree[ROOT].value, growing._tree[child].value) == (None, -1.0)
+
+
+class Disturbing(PlanningWorld):
+    """Every action of one kind goes wrong in one way, which its motion or state says."""
+
+    def __init__(self, spec: WorldSpec, kind: ActionKind, wrong: str) -> None:
+        super().__init__(spec)
+        self._kind, self._wrong = kind, wrong
+
+    def apply(self, state: State, action: Action, stop: Stop | None = None, watch: Watch | None = None) -> Transition:
+        made = super().apply(state, action, stop, watch)
+        if action.kind is not self._kind:
+            return made
+        if self._wrong == "something toppled":
+            conditions = (*made.state.conditions[:-1], Condition.TOPPLED)
+            return replace(made, state=replace(made.state, conditions=conditions))
+        motion = made.motion
+        stalls = self._wrong.startswith("stalled")
+        motion = replace(motion, stalled=True, largest_force=0.0) if stalls else replace(motion, settled=False)
+        return replace(made, motion=motion)
+
+
+WRONG = ["something toppled", "stalled at 0 N", "not at rest"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("wrong", WRONG)
+def test_nothing_is_grasped_after_drawing_the_arm_out_went_wrong(wrong: str) -> None:
+    spent = usual("kinodynamic-rrt").cost.simulated_actions
+    with Disturbing(WorldSpec(EASY), ActionKind.MOVE, wrong) as world:
+        plan: Plan = create(Kind.PLANNER, "kinodynamic-rrt").plan(task_in(world, simulations=spent + 50))
+    assert plan.tree is not None
+    moves = [row for row, node in enumerate(plan.tree.nodes) if node.action and node.action.kind is ActionKind.MOVE]
+    assert moves
+    assert all(plan.tree.nodes[row].closed == wrong for row in moves)
+    assert not {node.parent for node in plan.tree.nodes} & set(moves)
+    assert not plan.succeeded
+
+
+@pytest.mark.slow
+@pytest.mark.needs_ompl
+@pytest.mark.parametrize("wrong", WRONG)
+def test_grtc_does_not_go_on_from_a_push_that_went_wrong(wrong: str) -> None:
+    pytest.importorskip("ompl")
+    with Disturbing(WorldSpec(EASY), ActionKind.PUSH, wrong) as world:
+        plan: Plan = create(Kind.PLANNER, "grtc-kinodynamic", {"attempts": 1}).plan(task_in(world))
+    assert plan.tree is not None
+    pushes = [node for node in plan.tree.nodes[ROOT + 1 :] if node.action]
+    assert pushes
+    assert all(node.closed and node.parent == ROOT for node in pushes)
+    assert plan.status is Status.FAILED
+
+
+@pytest.mark.slow
+@pytest.mark.needs_ompl
+def test_grtc_solves_an_easy_scene_with_its_other_search_too() -> None:
+    plan = planned("grtc-kinodynamic", seed=0, search="kpiece1")
+    assert plan.status is Status.RETRIEVED, plan.reason
+    assert [action.kind for action in plan.actions] == [ActionKind.PUSH, ActionKind.GRASP]
+    assert plan != planned("grtc-kinodynamic", seed=0)
