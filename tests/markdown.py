@@ -82,7 +82,7 @@ def table(page: str, heading: str) -> list[list[str]]:
     _, found, below = text_of(ROOT / page).partition(f"\n## {heading}\n")
     assert found, f"{page} has no heading {heading!r}"
     below = below.partition("\n## ")[0] + "\n"
-    match = re.search(r"^\|.*\n\|[-| ]+\n((?:\|.*\n)+)", below, flags=re.MULTILINE)
+    match = re.search(r"^\|.*\n\|[-:| ]+\n((?:\|.*\n)+)", below, flags=re.MULTILINE)
     assert match, f"{page}, {heading!r}: no table"
     return [[_bare(cell.strip()) for cell in row.strip("|").split(" |")] for row in match[1].splitlines()]
 

@@ -297,15 +297,14 @@ def test_every_key_of_the_listings_is_explained() -> None:
     assert all(f"`{name}`" in text_of(DOCS / "json.md") for name in names)
 
 
-def test_the_measured_table_is_about_the_suites_and_planners_there_are() -> None:
-    sizes = {suite: len(create(Kind.SCENES, suite).names()) for suite in ("vieira", "papallas")}
-    sizes["all"] = sum(sizes.values())
-    rows = table("README.md", "Measured")
-    measured = list(dict.fromkeys(row[0] for row in rows))
-    assert set(measured) <= set(PLANNERS)
-    assert [tuple(row[:3]) for row in rows] == [(p, s, str(n)) for p in measured for s, n in sizes.items()]
-    for _, _, scenes, cleared, reached, retrieved, clean, *_ in rows:
-        assert int(scenes) >= int(cleared) >= int(reached) >= int(retrieved) >= int(clean)
+def test_the_table_of_readme_holds_the_counts_of_the_experiment() -> None:
+    plane = {row[0]: (row[1], "121") for row in table("docs/experiment.md", "In the plane")}
+    space = {(row[0], row[1]): tuple(row[2].split(" of ")) for row in table("docs/experiment.md", "In space")}
+    planners = ("phia", "phis", "phim", "ooa")
+    assert "| " + " | ".join(f"`{each}`" for each in planners) + " |" in text_of(README)
+    for backend, arm, problems, *counts in table("README.md", "Measured"):
+        told = [plane[each] if backend == "pymunk" else space[arm, each] for each in planners]
+        assert [(count, problems) for count in counts] == told
 
 
 def test_every_method_of_an_engine_of_joints_is_explained() -> None:

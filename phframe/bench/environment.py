@@ -6,9 +6,12 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import ClassVar
+
+from pydantic import ConfigDict, TypeAdapter, ValidationError
 
 from phframe.core import InputError, Value
+from phframe.core.run_spec import first_fault
 
 _ID_LENGTH = 16
 
@@ -26,6 +29,8 @@ class Environment(Value):
         cores: How many it has for us.
         memory: Of the machine (MB); 0: not known.
     """
+
+    __pydantic_config__: ClassVar = ConfigDict(extra="forbid")
 
     versions: Mapping[str, str] = field(default_factory=dict)
     commit: str = ""
@@ -52,7 +57,11 @@ class Environment(Value):
             InputError: If it is none.
         """
         try:
-            content: dict[str, Any] = json.loads(text)
-            return Environment(**content)
-        except (ValueError, TypeError) as error:
+            return _ENVIRONMENT.validate_python(json.loads(text))
+        except ValidationError as error:
+            raise InputError(f"this is no environment of a bench: {first_fault(error)}") from None
+        except (ValueError, TypeError, RecursionError) as error:
             raise InputError(f"this is no environment of a bench: {error}") from None
+
+
+_ENVIRONMENT = TypeAdapter(Environment)

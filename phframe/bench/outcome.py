@@ -17,6 +17,7 @@ from phframe.bench.trial import Trial
 from phframe.bench.trial_process import Ending
 from phframe.bench.trial_result import TrialEnd, TrialResult
 from phframe.core import Status
+from phframe.core.run_spec import first_fault
 
 _OURS = frozenset(
     ("key", "suite", "problem", "planner", "backend", "arm", "plan_backend", "plan_arm", "seed", "spec")
@@ -122,7 +123,4 @@ def _inconsistent(result: TrialResult) -> Iterator[str]:
 
 
 def _first(error: Exception) -> str:
-    if isinstance(error, ValidationError):
-        first = error.errors()[0]
-        return f"{'.'.join(str(step) for step in first['loc'])}: {first['msg']}"
-    return str(error)
+    return first_fault(error) if isinstance(error, ValidationError) else str(error)

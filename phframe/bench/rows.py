@@ -3,30 +3,35 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, get_type_hints
 
+from pydantic import TypeAdapter, ValidationError
+
 from phframe.bench.trial_result import TrialEnd, TrialResult
+from phframe.core.run_spec import first_fault
 
 _TEXT, _INTEGER, _REAL = "TEXT NOT NULL", "INTEGER NOT NULL", "REAL NOT NULL"
-_KINDS: Mapping[Any, tuple[str, Callable[[Any], Any]]] = {
-    str: (_TEXT, str),
-    TrialEnd: (_TEXT, TrialEnd),
-    int: (_INTEGER, int),
-    bool: (_INTEGER, bool),
-    float: (_REAL, float),
-    float | None: ("REAL", lambda value: value),
-    Mapping[str, int]: (_TEXT, json.loads),
+_KINDS: Mapping[Any, str] = {
+    str: _TEXT,
+    TrialEnd: _TEXT,
+    int: _INTEGER,
+    bool: _INTEGER,
+    float: _REAL,
+    float | None: "REAL",
+    Mapping[str, int]: _TEXT,
 }
-"""Of each type of field, its column and how it is read from there."""
+"""Of each type of field, its column."""
 
 _TYPES = get_type_hints(TrialResult)
 COLUMNS: tuple[str, ...] = tuple(field.name for field in fields(TrialResult))
 """In the order of the fields."""
-DECLARED = ", ".join(f"{name} {_KINDS[_TYPES[name]][0]}" for name in COLUMNS if name != "key")
+DECLARED = ", ".join(f"{name} {_KINDS[_TYPES[name]]}" for name in COLUMNS if name != "key")
 """All columns but ``key``, for CREATE TABLE."""
-_READ = tuple(_KINDS[_TYPES[name]][1] for name in COLUMNS)
+_RESULT = TypeAdapter(TrialResult)
+_OBJECTS = tuple(name for name in COLUMNS if _TYPES[name] == Mapping[str, int])
+"""Columns that hold JSON."""
 
 
 def to_row(result: TrialResult) -> tuple[Any, ...]:
@@ -40,7 +45,14 @@ def from_row(row: tuple[Any, ...]) -> TrialResult:
     Raises:
         ValueError: If one is not of its column's type.
     """
-    return TrialResult(*(read(value) for read, value in zip(_READ, row, strict=True)))
+    values = dict(zip(COLUMNS, row, strict=True))
+    try:
+        values.update({name: json.loads(values[name]) for name in _OBJECTS})
+        return _RESULT.validate_python(values)
+    except ValidationError as error:
+        raise ValueError(first_fault(error)) from None
+    except (TypeError, ValueError, RecursionError) as error:
+        raise ValueError(f"{' and '.join(_OBJECTS)}: {error}") from None
 
 
 def _stored(value: Any) -> Any:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any
+from typing import Any, ClassVar
+
+from pydantic import ConfigDict, TypeAdapter, ValidationError
 
 from phframe.core import InputError, Loop, Value
+from phframe.core.run_spec import first_fault
 
 FORMAT = 1
 """Of settings as JSON: what changes the meaning of a field gets a new one."""
@@ -42,6 +45,8 @@ class BenchSettings(Value):
     Raises:
         InputError: If a number is out of range, or there is no suite or planner.
     """
+
+    __pydantic_config__: ClassVar = ConfigDict(extra="forbid")
 
     suites: tuple[str, ...]
     planners: tuple[str, ...] = ("phia",)
@@ -90,7 +95,11 @@ class BenchSettings(Value):
             content = json.loads(text)
             if content.pop("format") != FORMAT:
                 raise ValueError("they are of another format")
-            read = {**content, "loop": Loop(**content["loop"])}
-            return BenchSettings(**{**read, "suites": tuple(read["suites"]), "planners": tuple(read["planners"])})
+            return _SETTINGS.validate_python(content)
+        except ValidationError as error:
+            raise InputError(f"these are no settings of a bench: {first_fault(error)}") from None
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
             raise InputError(f"these are no settings of a bench: {error}") from None
+
+
+_SETTINGS = TypeAdapter(BenchSettings)

@@ -130,7 +130,8 @@ class ResultStore:
     @property
     def settings(self) -> BenchSettings:
         """What the bench runs."""
-        return BenchSettings.from_json(str(self._one("SELECT settings FROM bench")))
+        with self._whole():
+            return BenchSettings.from_json(str(self._one("SELECT settings FROM bench")))
 
     def results(self) -> Generator[TrialResult, None, None]:
         """All results, one by one, ordered by suite, problem, planner and seed. Retired ones are left out.
@@ -139,13 +140,13 @@ class ResultStore:
         """
         with _told(self.path), closing(self._connection.cursor()) as cursor:
             for row in cursor.execute(f"SELECT {_ALL} FROM results WHERE NOT retired ORDER BY {_ORDER}"):
-                yield from_row(row)
+                yield self._read(row)
 
     def result(self, key: str) -> TrialResult | None:
         """The result of one trial, a retired one too; None: it has none."""
         with _told(self.path):
             row = self._connection.execute(f"SELECT {_ALL} FROM results WHERE key = ?", (key,)).fetchone()
-        return None if row is None else from_row(row)
+        return None if row is None else self._read(row)
 
     def find(self, *words: str) -> list[TrialResult]:
         """The results that are meant by the beginning of a key, or by a problem, planner and seed; retired ones left out."""
@@ -155,8 +156,9 @@ class ResultStore:
             else "problem = ? AND planner = ? AND CAST(seed AS TEXT) = ?"
         )
         query = f"SELECT {_ALL} FROM results WHERE {where} AND NOT retired ORDER BY {_ORDER}"
-        with _told(self.path):
-            return [from_row(row) for row in self._connection.execute(query, words)]
+        with _told(self.path), suppress(UnicodeEncodeError):  # no result has what UTF-8 cannot hold
+            return [self._read(row) for row in self._connection.execute(query, words)]
+        return []
 
     def add(self, result: TrialResult, *, fault: str = "", replace: bool = False) -> bool:
         """Store a result.
@@ -192,7 +194,8 @@ class ResultStore:
         """Where the trials ran, by the id that results have, in the order of their first use."""
         with _told(self.path):
             rows = self._connection.execute("SELECT id, content FROM environments ORDER BY number").fetchall()
-        return {name: Environment.from_json(content) for name, content in rows}
+        with self._whole():
+            return {name: Environment.from_json(content) for name, content in rows}
 
     def add_environment(self, environment: Environment) -> str:
         """Store where trials run; its id."""
@@ -276,6 +279,20 @@ class ResultStore:
         if complaint != "ok":
             raise StoreError(f"{path_shown(self.path)} is damaged: {' '.join(str(complaint).split())}")
         self.settings  # noqa: B018 - refuses what it cannot read
+
+    def _read(self, row: tuple[Any, ...]) -> TrialResult:
+        with self._whole():
+            return from_row(row)
+
+    @contextmanager
+    def _whole(self) -> Iterator[None]:
+        """What cannot be read although SQLite has it, as an error for people."""
+        try:
+            yield
+        except StoreError:
+            raise
+        except (InputError, ValueError) as error:
+            raise StoreError(f"{path_shown(self.path)} is damaged: {' '.join(str(error).split())}") from None
 
     def _one(self, query: str, *values: Any) -> Any:
         with _told(self.path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from statistics import fmean, median
@@ -20,7 +21,7 @@ class SummaryLine:
         retrieved: How many met the goal.
         clean: How many of these left everything else in order.
         failures: How many crashed, were killed, ran out of memory or had an error.
-        low: Lower end of the Wilson interval of the rate of retrieval.
+        low: Lower end of the interval of the rate of retrieval, as ``success_rate`` has it: seeds do not count as scenes.
         high: Its upper end.
         pushes: Mean number of pushes where the goal was met; None: it never was.
         planning_time: Median planning time of the trials that gave an episode (s); None: none did.
@@ -42,8 +43,7 @@ class SummaryLine:
 class SummaryTally:
     """What is counted while results come in."""
 
-    trials: int = 0
-    retrieved: int = 0
+    by_scene: defaultdict[str, list[bool]] = field(default_factory=lambda: defaultdict(list))
     clean: int = 0
     failures: int = 0
     pushes: list[int] = field(default_factory=list)
@@ -52,8 +52,7 @@ class SummaryTally:
     def count(self, result: TrialResult) -> None:
         """Count one more."""
         finished = result.end is TrialEnd.FINISHED
-        self.trials += 1
-        self.retrieved += result.retrieved
+        self.by_scene[result.problem].append(result.retrieved)
         self.clean += result.clean
         self.failures += not finished
         self.pushes += [result.pushes] if result.retrieved else []
@@ -69,10 +68,13 @@ def summary(results: Iterable[TrialResult]) -> list[SummaryLine]:
 
 
 def _line(planner: str, suite: str, tally: SummaryTally) -> SummaryLine:
-    from phframe.bench.statistics import wilson  # scipy takes a second to import
+    from phframe.bench.statistics import success_rate  # scipy takes a second to import
 
-    low, high = wilson(tally.retrieved, tally.trials)
+    rate = success_rate(tally.by_scene)
+    assert rate.low is not None, "there is a line only for what has results"
+    assert rate.high is not None
     pushes = fmean(tally.pushes) if tally.pushes else None
     seconds = median(tally.planning_times) if tally.planning_times else None
-    counts = tally.trials, tally.retrieved, tally.clean, tally.failures
-    return SummaryLine(planner, suite, *counts, low, high, pushes, seconds)
+    retrieved = sum(map(sum, tally.by_scene.values()))
+    counts = rate.trials, retrieved, tally.clean, tally.failures
+    return SummaryLine(planner, suite, *counts, rate.low, rate.high, pushes, seconds)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
 
-from phframe.core import Value
+from phframe.core import InputError, RunSpec, Value
 
 _UNWRITABLE = re.compile("[\0\ud800-\udfff]")
 """What UTF-8 or a database cannot hold: zero characters, and surrogates, as of undecodable output."""
@@ -132,3 +132,17 @@ class TrialResult(Value):
 
 def _writable(text: str) -> str:
     return _UNWRITABLE.sub(lambda found: ascii(found[0])[1:-1], text)
+
+
+def spec_of(result: TrialResult) -> RunSpec:
+    """The run of a trial.
+
+    Raises:
+        InputError: If it cannot be read.
+    """
+    try:
+        return RunSpec.from_json(result.spec)
+    except InputError as error:
+        raise InputError(
+            f"the trial {result.key} has no run that can be read: its bench is damaged ({error})"
+        ) from None

@@ -17,7 +17,8 @@ Accept = Annotated[
     list[str] | None,
     flag(
         "WHAT",
-        "In what they may differ: suites, options, versions, code, machine. Of the settings the first one's count. Repeatable.",
+        "In what they may differ: suites, planners, options, versions, code, machine. Of the settings the first one's count. "
+        "Repeatable.",
         "nothing",
         autocompletion=completion.differences,
     ),

@@ -24,14 +24,21 @@ TrialWords = Annotated[
         help="The beginning of its key ('phframe bench SUITE --list' shows it), or problem, planner and seed.",
     ),
 ]
+_SAME = "as in the trial"
 Planner = Annotated[
     str | None,
     part(
         "planner",
         "The planner, where it is a class in a file: that is run only if it is given here, ./mine.py:Mine.",
-        "as in the trial",
+        _SAME,
     ),
 ]
+Backend = Annotated[str | None, part("backend", "The physics engine, likewise.", _SAME)]
+Arm = Annotated[str | None, part("arm", "The arm, likewise.", _SAME)]
+PlanBackend = Annotated[str | None, part("backend", "The physics engine to plan in, likewise.", _SAME)]
+PlanArm = Annotated[str | None, part("arm", "The arm to plan with, likewise.", _SAME)]
+Topology = Annotated[str | None, part("topology", "The topology engine, likewise.", _SAME)]
+Goal = Annotated[str | None, part("goal", "The goal, likewise.", _SAME)]
 Out = Annotated[
     Path | None,
     flag(
@@ -45,6 +52,12 @@ def replay(
     directory: Bench,
     trial: TrialWords,
     planner: Planner = None,
+    backend: Backend = None,
+    arm: Arm = None,
+    plan_backend: PlanBackend = None,
+    plan_arm: PlanArm = None,
+    topology: Topology = None,
+    goal: Goal = None,
     out: Out = None,
     rerun: Rerun = None,
     view: View = False,
@@ -61,7 +74,7 @@ def replay(
         )
     from phframe.cli.bench_replaying import run  # heavy, and not needed where the command line is wrong
     from phframe.cli.run import RunOutput
+    from phframe.core.run_spec import PARTS
 
-    raise typer.Exit(
-        run(directory, trial, planner, RunOutput(out, True if view else rerun, view=view, as_json=as_json))
-    )
+    parts = dict(zip(PARTS, (planner, backend, arm, plan_backend, plan_arm, topology, goal), strict=True))
+    raise typer.Exit(run(directory, trial, parts, RunOutput(out, True if view else rerun, view=view, as_json=as_json)))

@@ -11,7 +11,7 @@ from typing import Any
 from phframe.bench.child import described
 from phframe.bench.judge import measured
 from phframe.bench.store import ResultStore
-from phframe.bench.trial_result import TrialEnd, TrialResult
+from phframe.bench.trial_result import TrialEnd, TrialResult, spec_of
 from phframe.cli.console import emit, note
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.run import RunOutput, carry_out, show_recording
@@ -25,13 +25,13 @@ _TIMES = frozenset(("planning_time", "topology_time", "simulation_time", "motion
 """What differs from run to run."""
 
 
-def run(bench: Path, words: Sequence[str], planner: str | None, report: RunOutput) -> int:
+def run(bench: Path, words: Sequence[str], parts: Mapping[str, str | None], report: RunOutput) -> int:
     """Repeat a trial and print how the repetition compares.
 
     Args:
         bench: The directory of the bench.
         words: Which trial: the beginning of its key, or its problem, planner and seed.
-        planner: The planner, if it is a class in a file; None: the trial's.
+        parts: Those that are classes in files, by what they are in a run; None: the trial's.
         report: What is to be left and printed.
 
     Returns:
@@ -45,7 +45,7 @@ def run(bench: Path, words: Sequence[str], planner: str | None, report: RunOutpu
         fault = store.fault(before.key)
     directory = RunDirectory(report.out)
     try:
-        now = _again(_spec(before, planner), report, directory)
+        now = _again(_spec(before, parts), report, directory)
     except KeyboardInterrupt:
         return ExitCode.INTERRUPTED
     found = _compared(before, now, fault)
@@ -71,14 +71,15 @@ def _the_one(found: Sequence[TrialResult], bench: Path, words: Sequence[str]) ->
     return found[0]
 
 
-def _spec(before: TrialResult, planner: str | None) -> RunSpec:
-    """The trial's run; a planner given takes the place of a class in a file of the same name only."""
-    spec = RunSpec.from_json(before.spec)
-    if planner is None:
-        return spec
-    if planner != spec.planner:
-        raise InputError(f"--planner {planner} is not the planner of the trial, which is {spec.planner}")
-    return replace(spec, planner=planner)
+def _spec(before: TrialResult, parts: Mapping[str, str | None]) -> RunSpec:
+    """The trial's run; a part given takes the place of a class in a file of the same name only."""
+    spec = spec_of(before)
+    wanted: dict[str, Any] = {part: name for part, name in parts.items() if name is not None}
+    for part, name in wanted.items():
+        if name != (known := getattr(spec, part)):
+            flag = f"--{part.replace('_', '-')}"
+            raise InputError(f"{flag} {name} is not the {part.replace('_', ' ')} of the trial, which is {known}")
+    return replace(spec, **wanted)
 
 
 def _again(spec: RunSpec, report: RunOutput, directory: RunDirectory) -> dict[str, Any]:

@@ -11,7 +11,7 @@ class ExitCode(IntEnum):
     SUCCESS = 0
     """Done; for ``solve``: the target was retrieved."""
     OTHER_OUTCOME = 1
-    """``solve`` ran to its end and the target was not retrieved."""
+    """``solve`` ran to its end and the target was not retrieved; ``bench``: some trials gave no episode; a replay differs."""
     BAD_INPUT = 2
     """Bad input or usage."""
     NOT_INSTALLED = 3
@@ -24,7 +24,8 @@ class ExitCode(IntEnum):
 
 MEANING = {
     ExitCode.SUCCESS: "done; for `solve`: the target was retrieved",
-    ExitCode.OTHER_OUTCOME: "`solve` ran to its end and the target was not retrieved",
+    ExitCode.OTHER_OUTCOME: "`solve` ran to its end and the target was not retrieved; `bench`: some trials crashed, were killed, "
+    "ran out of memory or had an error; `replay`, `bench replay`: not the same",
     ExitCode.BAD_INPUT: "bad input or usage",
     ExitCode.NOT_INSTALLED: "something that is needed is not installed",
     ExitCode.INTERNAL_ERROR: "an internal error",

@@ -183,7 +183,7 @@ def _dump(spec: RunSpec) -> dict[str, Any]:
         stored = _Stored.model_validate({each.name: getattr(spec, each.name) for each in fields(spec)})
         return {"format": FORMAT, **stored.model_dump(mode="json")}
     except ValidationError as error:
-        raise InputError(f"this run cannot be stored: {_first(error)}") from None
+        raise InputError(f"this run cannot be stored: {first_fault(error)}") from None
 
 
 def _load(content: Any) -> RunSpec:
@@ -195,7 +195,7 @@ def _load(content: Any) -> RunSpec:
     try:
         stored = _Stored.model_validate(content)
     except ValidationError as error:
-        raise ValueError(_first(error)) from None
+        raise ValueError(first_fault(error)) from None
     read = {name: getattr(stored, name) for name in _Stored.model_fields}
     names = {name: StoredName(value) for name, value in read.items() if isinstance(value, str)}
     return RunSpec(**{**read, **names})
@@ -205,7 +205,8 @@ AnyRunSpec = Annotated[RunSpec, PlainSerializer(_dump), PlainValidator(_load, js
 """A run as files hold it."""
 
 
-def _first(error: ValidationError) -> str:
+def first_fault(error: ValidationError) -> str:
+    """The first thing that is wrong, and where, in a line."""
     first = error.errors()[0]
     return f"{'.'.join(str(step) for step in first['loc'])}: {first['msg']}"
 

@@ -22,7 +22,7 @@ def variant_name(name: str, options: Mapping[str, Any]) -> str:
     Returns:
         What ``split_variant`` reads again, unless a value is so long that it is shortened.
     """
-    texts = [f"{key}={_shortened(_text(value))}" for key, value in sorted(options.items())]
+    texts = [f"{key}={_shortened(value_text(value))}" for key, value in sorted(options.items())]
     return f"{name}[{','.join(texts)}]" if texts else name
 
 
@@ -78,9 +78,10 @@ def _shortened(text: str) -> str:
     return f"{text[: _LONGEST // 2]}...{hashlib.sha256(text.encode()).hexdigest()[:8]}"
 
 
-def _text(value: Any) -> str:
+def value_text(value: Any) -> str:
+    """The value of an option as it is typed, whole and exact."""
     if isinstance(value, list | tuple):
-        return f"[{','.join(_text(each) for each in value)}]"
+        return f"[{','.join(value_text(each) for each in value)}]"
     if isinstance(value, bool):
         return str(value).lower()
     return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else str(value)

@@ -184,3 +184,11 @@ def test_the_summary_counts_by_planner_and_suite_with_the_wilson_interval() -> N
     assert (line.low, line.high) == pytest.approx((0.490162, 0.943318), abs=1e-6)  # Wilson 1927, by hand
     assert (line.pushes, line.planning_time) == (3.5, 3.0)
     assert (other.retrieved, other.pushes, other.low) == (0, None, 0.0)
+
+
+def test_seeds_that_agree_narrow_no_interval_of_the_summary() -> None:
+    results = [a_result(f"s/{n}", problem=f"s/{n}", retrieved=n < 6) for n in range(8)]
+    (once,) = summary(results)
+    (often,) = summary([replace(each, key=f"{each.key}-{seed}", seed=seed) for each in results for seed in range(10)])
+    assert (once.trials, once.retrieved, often.trials, often.retrieved) == (8, 6, 80, 60)
+    assert (often.low, often.high) == pytest.approx((once.low, once.high))

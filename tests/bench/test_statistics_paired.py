@@ -37,8 +37,29 @@ def test_signed_rank_of_darwins_maize() -> None:
     assert signed_rank([*darwin, 0.0, 0.0]) == signed_rank(darwin)
 
 
-def test_signed_rank_with_ties_is_normal_and_of_nothing_is_1() -> None:
-    assert signed_rank([1.0] * 20) < 1e-4
+@pytest.mark.parametrize(
+    ("differences", "p"),
+    [
+        ([1.0] * 5, 2 / 2**5),
+        ([1.0, 1.0, 1.0, 1.0, 2.0], 2 / 2**5),
+        ([1.0] * 6, 2 / 2**6),
+        ([1.0, 1.0, -1.0], 1.0),
+        (
+            [-1.0, 1.0, 2.0, 2.0, 3.0],
+            6 / 2**5,
+        ),  # ranks 1.5, 1.5, 3.5, 3.5, 5: sums of 1.5 or less are of none, or of either 1.5
+        ([1.0] * 50, 2 / 2**50),
+    ],
+    ids=str,
+)
+def test_signed_rank_is_exact_with_ties_too(differences: list[float], p: float) -> None:
+    assert signed_rank(differences) == p
+    assert signed_rank([-each for each in differences]) == p
+
+
+def test_signed_rank_of_many_is_normal_and_of_nothing_is_1() -> None:
+    assert 0.9 < signed_rank([(-1.0) ** i * (i // 2 + 1) for i in range(60)]) <= 1.0
+    assert signed_rank([1.0] * 60) < 1e-9
     assert signed_rank([0.0, 0.0]) == signed_rank([]) == 1.0
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sqlite3
 from collections.abc import Callable
 from dataclasses import fields, replace
@@ -241,6 +242,65 @@ def test_a_damaged_file_is_refused_or_read_and_never_a_traceback(tmp_path: Path,
             assert len(list(store.results())) == 60
     except StoreError as error:
         assert "\n" not in str(error)  # noqa: PT017 - either is right
+
+
+@pytest.mark.parametrize(
+    ("column", "value"),
+    [
+        ("prediction_error", "abc"),
+        ("first_solution_time", "x"),
+        ("planning_time", "soon"),
+        ("pushes", 1.5),
+        ("pushes", "many"),
+        ("clean", 2),
+        ("end", "vanished"),
+        ("deviations", "[1]"),
+        ("deviations", "3"),
+        ("deviations", '{"a": "b"}'),
+        ("deviations", "{"),
+        ("deviations", "[" * 100_000),
+    ],
+)
+def test_a_value_of_another_type_is_told_as_damage(store: ResultStore, column: str, value: object) -> None:
+    store.add(a_result("k"))
+    store._connection.execute(f"UPDATE results SET {column} = ?", (value,))
+    for read in (lambda: list(store.results()), lambda: store.result("k"), lambda: store.find("k")):
+        with pytest.raises(StoreError, match=rf"^[^\n]*{FILE} is damaged: [^\n]*{column}[^\n]*$"):
+            read()
+
+
+@pytest.mark.parametrize("text", ['{"versions": 3}', '{"cores": "two"}', '{"new": 3}', "[]", "3", "{"])
+def test_a_place_that_cannot_be_read_is_told_as_damage(store: ResultStore, text: str) -> None:
+    store.add_environment(Environment({"python": "3.11"}))
+    store._connection.execute("UPDATE environments SET content = ?", (text,))
+    with pytest.raises(StoreError, match="is damaged: this is no environment"):
+        store.environments()
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("planners", [1]),
+        ("planners", "phia"),
+        ("loop", []),
+        ("loop", {"new": 1}),
+        ("seeds", "x"),
+        ("options", 3),
+        ("arm", 3),
+    ],
+)
+def test_settings_that_cannot_be_read_are_told_as_damage(tmp_path: Path, field: str, value: object) -> None:
+    with ResultStore.create(tmp_path, settings()) as store:
+        text = json.dumps({**json.loads(store.settings.to_json()), field: value})
+        store._connection.execute("UPDATE bench SET settings = ?", (text,))
+    assert ResultStore.is_in(tmp_path)
+    with pytest.raises(StoreError, match=f"is damaged: these are no settings of a bench: {field}"):
+        ResultStore.open(tmp_path)
+
+
+def test_words_that_no_file_can_hold_are_of_no_trial(store: ResultStore) -> None:
+    store.add(a_result("k"))
+    assert store.find("\udcff") == store.find("s/1", "\udcff", "0") == []
 
 
 def test_a_file_of_another_format_is_refused(tmp_path: Path, store: ResultStore) -> None:

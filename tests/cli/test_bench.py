@@ -7,7 +7,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -18,11 +18,13 @@ import pytest
 
 from phframe.bench.bench_plan import BenchPlan
 from phframe.bench.directory_lock import LOCK
+from phframe.bench.environment import Environment
 from phframe.bench.session import BenchSession
 from phframe.bench.store import FILE, ResultStore
 from phframe.bench.trial_result import TrialEnd
 from phframe.cli.main import app
-from tests.bench.benches import lives, misbehaving, noted, settings
+from phframe.core import RunSpec
+from tests.bench.benches import a_result, lives, misbehaving, noted, settings
 from tests.cli.conftest import Invoke, Run, Spawn, until
 
 SMALL = ("bench", "vieira/simple-0[123]", "--planner", "phia", "--planner", "ooa")
@@ -269,6 +271,35 @@ def test_a_damaged_file_of_results_is_refused_and_stays(invoke: Invoke, content:
     assert Path("here", FILE).read_bytes() == content
 
 
+FIGURE = "UPDATE results SET prediction_error = 'abc'"
+COUNTS = "UPDATE results SET deviations = '[1]'"
+SPEC = """UPDATE results SET spec = '{"format": 1, "loop": []}'"""
+PLACE = """UPDATE environments SET content = '{"versions": 3}'"""
+SETTINGS = """UPDATE bench SET settings = '{"format": 1, "suites": ["s"], "planners": [1]}'"""
+REPORT, REPLAY, EXPORT = ("report", "here"), ("bench", "replay", "here", "k"), ("bench", "export", "here", "--format")
+
+
+@pytest.mark.parametrize(
+    ("words", "damage"),
+    [
+        *((REPORT, damage) for damage in (FIGURE, COUNTS, SPEC, PLACE, SETTINGS)),
+        *((REPLAY, damage) for damage in (FIGURE, COUNTS, SPEC, SETTINGS)),
+        *(((*EXPORT, "json"), damage) for damage in (FIGURE, COUNTS, PLACE, SETTINGS)),
+        *(((*EXPORT, "csv"), damage) for damage in (FIGURE, COUNTS, SETTINGS)),
+        *((("bench", "vieira/simple-01", "--out", "here", "--list"), damage) for damage in (FIGURE, COUNTS, SETTINGS)),
+    ],
+)
+def test_damage_in_a_whole_database_is_one_line(invoke: Invoke, words: Sequence[str], damage: str) -> None:
+    plan = BenchPlan.of(settings())
+    with ResultStore.create("here", plan.settings, plan.digests) as store:
+        store.add_environment(Environment())
+        store.add(a_result(plan[0].key if "--list" in words else "k", spec=RunSpec().to_json()))
+        store._connection.execute(damage)
+    result = invoke(*words)
+    assert (result.exit_code, result.stderr[:7], result.stderr.count("\n")) == (2, "error: ", 1), result.stderr
+    assert "damaged" in result.stderr
+
+
 @pytest.mark.slow
 def test_where_no_process_can_be_started_that_is_one_line(run: Run, tmp_path: Path) -> None:
     long = tmp_path / ("x" * 100)
@@ -334,6 +365,19 @@ def test_a_planner_in_a_file_is_repeated_only_if_it_is_given(invoke: Invoke) -> 
     assert (same.exit_code, same.stdout.startswith("the same: error (RuntimeError: no idea")) == (0, True)
     assert "Traceback" in same.stderr
     assert "is not the planner of the trial" in invoke(*words, "--planner", "phia").stderr
+
+
+@pytest.mark.slow
+def test_any_part_in_a_file_is_repeated_only_if_it_is_given(invoke: Invoke) -> None:
+    Path("goals.py").write_text("from phframe.pushing.retrieve import Retrieve\nclass Mine(Retrieve):\n    pass\n")
+    name = "./goals.py:Mine"
+    assert invoke("bench", "vieira/simple-01", "--planner", "phia", "--goal", name, *HERE).exit_code == 0
+    words = ("bench", "replay", "here", "vieira/simple-01", "phia", "0", "--no-rerun")
+    refused = invoke(*words)
+    assert refused.exit_code == 2
+    assert f"give it yourself, as in --goal {name}" in refused.stderr
+    assert invoke(*words, "--goal", name).stdout.startswith("the same: ")
+    assert "is not the plan backend of the trial" in invoke(*words, "--plan-backend", "mujoco").stderr
 
 
 @pytest.mark.slow

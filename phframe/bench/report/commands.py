@@ -8,11 +8,13 @@ from typing import Any
 
 from phframe.bench.settings import MEMORY_LIMIT, BenchSettings
 from phframe.core import InputError, Loop, RunSpec
-from phframe.core.variant import split_variant, variant_name
+from phframe.core.run_spec import PARTS
+from phframe.core.variant import split_variant, value_text
+from phframe.registry.from_file import is_file
 
 KEY_SHOWN = 12
 """Digits of a trial's key, of which the beginning is enough."""
-_PARTS = ("backend", "arm", "plan_backend", "plan_arm", "topology", "goal")
+_PARTS = tuple(part for part in PARTS if part != "planner")
 
 
 def bench_command(settings: BenchSettings, out: str) -> str:
@@ -25,29 +27,39 @@ def bench_command(settings: BenchSettings, out: str) -> str:
     words += ["--seeds", str(settings.seeds)] if settings.seeds != 1 else []
     words += [*_loop(settings.loop), *_noise(settings.noise)]
     words += ["--memory-limit", str(settings.memory_limit)] if settings.memory_limit != MEMORY_LIMIT else []
-    words += ["--trial-limit", f"{settings.trial_limit:g}"] if settings.trial_limit is not None else []
+    words += ["--trial-limit", value_text(settings.trial_limit)] if settings.trial_limit is not None else []
     return shlex.join([*words, "--out", out])
 
 
-def replay_command(directory: str, key: str) -> str:
-    """The ``phframe bench replay`` of a trial."""
-    return shlex.join(["phframe", "bench", "replay", directory, key[:KEY_SHOWN]])
+def replay_command(directory: str, key: str, spec: str) -> str:
+    """The ``phframe bench replay`` of a trial; it names the parts that are classes in files, which are not run unasked."""
+    words = ["phframe", "bench", "replay", directory, key[:KEY_SHOWN]]
+    run = _run(spec)
+    named = {} if run is None else {part: getattr(run, part) for part in PARTS}
+    for part, name in named.items():
+        words += [f"--{part.replace('_', '-')}", name] if name is not None and is_file(name) else []
+    return shlex.join(words)
 
 
 def solve_command(spec: str) -> str:
     """The ``phframe solve`` that does what a trial did; empty: its scene is no name, or its run cannot be read."""
-    try:
-        run = RunSpec.from_json(spec)
-    except InputError:
+    run = _run(spec)
+    if run is None or not isinstance(run.scene, str):
         return ""
-    if not isinstance(run.scene, str):
-        return ""
-    planner = variant_name(*_merged(run.planner, run.options.get("planner", {})))
-    words = ["phframe", "solve", run.scene, "--planner", planner]
+    name, options = _merged(run.planner, run.options.get("planner", {}))
+    inside = ",".join(_assigned(options))
+    words = ["phframe", "solve", run.scene, "--planner", f"{name}[{inside}]" if inside else name]
     words += _parts({name: getattr(run, name) for name in _PARTS}, RunSpec())
     words += _options(run.options, "planner")
     words += ["--seed", str(run.seed), *_loop(run.loop), *_noise(run.noise)]
     return shlex.join(map(str, words))
+
+
+def _run(spec: str) -> RunSpec | None:
+    try:
+        return RunSpec.from_json(spec)
+    except InputError:
+        return None
 
 
 def _merged(name: str, options: Mapping[str, Any]) -> tuple[str, Mapping[str, Any]]:
@@ -69,16 +81,19 @@ def _parts(given: Mapping[str, Any], default: Any) -> list[str]:
 
 def _options(options: Mapping[str, Mapping[str, Any]], left_out: str) -> Iterator[str]:
     for part, given in sorted(options.items()):
-        for key in sorted(given) if part != left_out else ():
-            text = variant_name("", {key: given[key]})[1:-1]
+        for text in _assigned(given) if part != left_out else ():
             yield from ("--option", f"{part}.{text}")
+
+
+def _assigned(options: Mapping[str, Any]) -> list[str]:
+    return [f"{key}={value_text(value)}" for key, value in sorted(options.items())]
 
 
 def _loop(loop: Loop) -> Iterator[str]:
     for name in ("time_limit", "max_replans", "tolerance", "simulations"):
         if getattr(loop, name) != getattr(Loop(), name):
-            yield from (f"--{name.replace('_', '-')}", f"{getattr(loop, name):g}")
+            yield from (f"--{name.replace('_', '-')}", value_text(getattr(loop, name)))
 
 
 def _noise(noise: Mapping[str, float]) -> list[str]:
-    return ["--noise", ",".join(f"{key}={value:g}" for key, value in sorted(noise.items()))] if noise else []
+    return ["--noise", ",".join(_assigned(noise))] if noise else []

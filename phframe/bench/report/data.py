@@ -10,7 +10,7 @@ from typing import Any
 
 from phframe.bench.environment import Environment
 from phframe.bench.settings import BenchSettings
-from phframe.bench.trial_result import TrialResult
+from phframe.bench.trial_result import TrialResult, spec_of
 from phframe.core import InputError, Value
 
 ALL = "all suites"
@@ -138,12 +138,8 @@ def _groups(found: Mapping[tuple[str, str], Mapping[str, list[TrialResult]]]) ->
 
 
 def _spec(result: TrialResult) -> Mapping[str, Any]:
-    try:
-        spec = json.loads(result.spec)
-    except ValueError:
-        spec = None
-    if not isinstance(spec, dict):
-        raise InputError(f"the trial {result.key} has no run that can be read: its bench is damaged")
+    spec_of(result)  # refuses what is no run
+    spec: Mapping[str, Any] = json.loads(result.spec)
     return spec
 
 

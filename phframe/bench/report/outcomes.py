@@ -211,7 +211,7 @@ def _fold(title: str, of: Sequence[TrialResult], most: int, homes: Mapping[str, 
     rows: tuple[tuple[Cell, ...], ...] = tuple(
         (
             r.planner, r.problem, r.seed, f"{r.backend} with {r.arm}", r.reason[:400],
-            replay_command(homes[r.key], r.key), solve_command(r.spec),
+            replay_command(homes[r.key], r.key, r.spec), solve_command(r.spec),
         )
         for r in of[:most]
     )  # fmt: skip

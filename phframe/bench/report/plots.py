@@ -17,7 +17,7 @@ from phframe.bench.report.styles import PlannerStyle
 from phframe.bench.report.summary import GroupSummary, finished
 from phframe.bench.statistics_curves import Curve, ObservedTrial, logrank_p, performance_profiles, solved_over_time
 from phframe.bench.statistics_paired import LEAST_TIME, PairedComparison, Problem, compare_all, holm
-from phframe.bench.trial_result import TrialResult
+from phframe.bench.trial_result import TrialEnd, TrialResult
 
 Looks = Mapping[str, PlannerStyle]
 NOBODY = "No trial retrieved here, so there is nothing to draw."
@@ -88,7 +88,8 @@ def time_section(data: ReportData, looks: Looks) -> ReportSection:
     return ReportSection(
         "time", "Solved over planning time",
         "The fraction of trials retrieved within a planning time (one less Kaplan and Meier's estimate), with bands of 95 %. "
-        "Trials that ran out of time are censored at their limit; those whose planner gave up, or died, stay unsolved to the end.",
+        "Trials that were stopped (out of time or simulations, killed) are censored when they stopped planning, at their limit at "
+        "the latest; those whose planner gave up, or that died, stay unsolved to the end.",
         _folds(data, "time", draw),
     )  # fmt: skip
 
@@ -196,21 +197,28 @@ def _end_of_time(group: Group, limits: Mapping[str, float]) -> float:
 
 
 def timed_out(result: TrialResult) -> bool:
-    """Whether a trial ended because its time was over."""
-    return not result.retrieved and ("timeout" in (result.status, result.claimed) or result.end.value == "killed")
+    """Whether a trial ended because its time, or its simulations, were used up."""
+    return not result.retrieved and ("timeout" in (result.status, result.claimed) or result.end is TrialEnd.KILLED)
 
 
 def observed(result: TrialResult, limit: float, end: float) -> ObservedTrial:
-    """A trial as it is told over planning time: solved, out of time at its limit, or given up and unsolved to the end."""
+    """A trial as it is told over planning time: solved, stopped, or given up and unsolved to the end.
+
+    One that was stopped was observed for no longer than it planned; a killed one, whose planning time nobody knows, for no
+    longer than it lived.
+    """
     if result.retrieved:
         return ObservedTrial(max(result.planning_time, LEAST_TIME), solved=True)
-    return ObservedTrial(limit if timed_out(result) else max(end, limit), solved=False)
+    if not timed_out(result):
+        return ObservedTrial(max(end, limit), solved=False)
+    seen = result.wall_time if result.end is TrialEnd.KILLED else result.planning_time
+    return ObservedTrial(max(min(limit, seen), LEAST_TIME), solved=False)
 
 
 def _timed_out(group: Group, end: float) -> str:
     results = [result for of in group.by_planner.values() for result in of]
     late = sum(map(timed_out, results))
-    return f"Up to {end:.3g} s. Of {len(results)} trials, {late} ran out of time."
+    return f"Up to {end:.3g} s. Of {len(results)} trials, {late} ran out of time or simulations, or were killed."
 
 
 def _logrank(group: Group, data: ReportData) -> Iterator[Part]:

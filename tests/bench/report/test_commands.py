@@ -15,6 +15,7 @@ from phframe.bench.settings import BenchSettings
 from phframe.cli.main import app
 from phframe.cli.options import parse_options
 from phframe.core import Loop, RunSpec
+from phframe.core.run_spec import PARTS as PARTS_OF_A_RUN
 from phframe.core.variant import split_variant
 from phframe.runtime.noise import Noise
 
@@ -26,6 +27,12 @@ RUNS = [
     RunSpec("papallas/s01", backend="mujoco", arm="planar", plan_backend="pymunk", plan_arm="planar"),
     RunSpec(loop=Loop(3, 0.02, 60.0, 500), noise={"position": 0.005, "friction": 0.3}, topology="single-linkage"),
     RunSpec("./a b.yaml", planner="./my planner.py:Mine"),
+    RunSpec(
+        "near/0",
+        loop=Loop(1000000, 0.0123456789, 1234567.5, 1234567),
+        noise={"position": 0.00123456789},
+        options={"planner": {"margin": 0.0123456789, "text": "x" * 60}, "arm": {"name": "y" * 60}},
+    ),
 ]
 
 
@@ -81,6 +88,9 @@ def test_solving_anew_is_the_run_of_the_trial(spec: RunSpec) -> None:
         BenchSettings(
             ("near",), backend="mujoco", arm="baxter", plan_arm="planar", options={"arm": {"link_width": 0.1}}
         ),
+        BenchSettings(
+            ("near",), loop=Loop(simulations=1234567), trial_limit=1234567.5, noise={"friction": 0.123456789}
+        ),
         BenchSettings(("near",), loop=Loop(time_limit=60.0, simulations=9), noise={"friction": 0.3}, goal="retrieve"),
     ],
     ids=str,
@@ -99,8 +109,15 @@ def test_the_command_of_a_bench_has_its_settings(settings: BenchSettings) -> Non
 
 @given(st.text(min_size=1))
 def test_a_directory_is_one_word_however_it_is_called(directory: str) -> None:
-    words = shlex.split(replay_command(directory, "0123456789abcdef"))
+    words = shlex.split(replay_command(directory, "0123456789abcdef", RunSpec().to_json()))
     assert words == ["phframe", "bench", "replay", directory, "0123456789ab"]
+
+
+def test_a_repetition_names_the_parts_that_are_in_files() -> None:
+    spec = RunSpec(planner="./my planner.py:Mine", arm="./arm.py:Mine", plan_arm="planar", goal="goals.py:Mine")
+    found = read(replay_command("runs/a", "0123456789abcdef", spec.to_json()))
+    named = {"planner": "./my planner.py:Mine", "arm": "./arm.py:Mine", "goal": "goals.py:Mine"}
+    assert {part: found[part] for part in PARTS_OF_A_RUN} == {**dict.fromkeys(PARTS_OF_A_RUN), **named}
 
 
 def test_a_run_that_cannot_be_read_has_no_command() -> None:

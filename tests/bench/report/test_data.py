@@ -9,7 +9,7 @@ import pytest
 
 from phframe.bench.report.data import ALL, BenchSource, ReportData, gather
 from phframe.bench.trial_result import TrialResult
-from phframe.core import InputError
+from phframe.core import InputError, RunSpec
 from tests.bench.report.synthetic import synthetic
 
 
@@ -81,7 +81,16 @@ def test_no_results_are_refused_with_what_to_do() -> None:
         gathered([], [])
 
 
-@pytest.mark.parametrize("spec", ["", "[]", "{"])
+@pytest.mark.parametrize(
+    "spec",
+    [
+        "",
+        "[]",
+        "{",
+        "{}",
+        *(json.dumps({**json.loads(RunSpec().to_json()), name: []}) for name in ("loop", "options", "noise")),
+    ],
+)
 def test_a_run_that_cannot_be_read_is_refused(spec: str) -> None:
     with pytest.raises(InputError, match="damaged"):
         gathered([replace(few()[0], spec=spec)])
