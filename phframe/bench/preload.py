@@ -45,4 +45,5 @@ def warm_up() -> None:
 
 
 atexit.register(end_children)
+atexit.register(gc.unfreeze)  # else OMPL's bindings take what was never collected for leaked, and say so
 warm_up()

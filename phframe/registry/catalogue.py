@@ -74,17 +74,20 @@ class Catalogue:
         """All of one kind, the built-ins first."""
         return tuple(entry for entry in self.entries if entry.extension.kind is kind)
 
+    def entry(self, kind: Kind, name: str) -> Entry | None:
+        """What a name, or ``distribution:name``, leads to; None: to nothing, or to more than one thing."""
+        distribution, colon, own_name = name.rpartition(":")
+        wanted = f"{normalized(distribution)}:{own_name}" if colon else name
+        return next((each for each in self.extensions(kind) if wanted in (each.name, each.qualified_name)), None)
+
     def find(self, kind: Kind, name: str) -> Entry:
         """What a name, or ``distribution:name``, leads to.
 
         Raises:
             UnknownNameError: If it leads to nothing, or to more than one thing.
         """
-        distribution, colon, own_name = name.rpartition(":")
-        wanted = f"{normalized(distribution)}:{own_name}" if colon else name
-        for entry in self.extensions(kind):
-            if wanted in (entry.name, entry.qualified_name):
-                return entry
+        if entry := self.entry(kind, name):
+            return entry
         raise UnknownNameError(kind, name, [entry.name for entry in self.extensions(kind)], self._hint(kind, name))
 
     def _hint(self, kind: Kind, name: str) -> str:

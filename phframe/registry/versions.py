@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib import metadata
 
-from phframe.core.errors import UnknownNameError
 from phframe.registry.catalogue import HOME, Catalogue
 from phframe.registry.extension import Kind
 from phframe.registry.manager import catalogue
@@ -25,9 +24,7 @@ def versions(used: Iterable[tuple[Kind, str]], registered: Catalogue | None = No
     """
     found: dict[str, None] = dict.fromkeys([HOME, *required(HOME)])
     for kind, name in used:
-        try:
-            entry = (registered or catalogue()).find(kind, name)
-        except UnknownNameError:
+        if (entry := (registered or catalogue()).entry(kind, name)) is None:
             continue
         extension = entry.extension
         extras = [extra for extra in (extension.extra, *extension.uses) if extra]
