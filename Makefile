@@ -5,7 +5,7 @@
 TEST_EXTRAS ?= dev,rerun,parquet,cluster
 TEST_3D_EXTRAS ?= dev,mujoco,pybullet,ompl,baxter,meshes,video
 DEMO_EXTRAS ?= rerun
-PICTURES_EXTRAS ?= rerun,mujoco,ompl,baxter,meshes,video,plots
+PICTURES_EXTRAS ?= rerun,mujoco,ompl,baxter,meshes,video,plots,report
 BENCH_EXTRAS ?= dev,rerun,mujoco,pybullet,ompl,baxter
 SCENE ?= vieira/basic
 # What is tested with phframe: plugins as their users have them, installed.

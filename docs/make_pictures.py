@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from docs.chromium import find_chromium
+from docs.experiment_picture import FIGURES
 
 HERE = Path(__file__).parent / "images"
 SOLVE = "phframe solve vieira/basic"
@@ -26,6 +27,7 @@ PICTURES = {
     "baxter.webp": (
         "phframe solve papallas/s02 --backend mujoco --arm baxter --no-rerun --out {scratch}/run --video {picture}",
     ),
+    **dict.fromkeys(FIGURES, ("python docs/experiment_picture.py {picture}",)),
 }
 """How each is made, command by command."""
 
