@@ -29,7 +29,7 @@ has_plugins = import importlib.metadata as m; [m.version(name) for name in '$(no
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-3d lint bench pictures clean interpreter FORCE
+.PHONY: help demo test test-3d test-long lint bench pictures clean interpreter FORCE
 
 help: ## say what can be made (the default)
 	@echo 'usage: make TARGET [PYTHON=/path/to/python3.11]'
@@ -41,12 +41,16 @@ demo: $(call stamp,$(DEMO_EXTRAS)) ## solve a shelf scene and record it for the 
 # Whatever is installed, the libraries for 3D are hidden: what is tested here needs none of them.
 test: $(call stamp,$(TEST_EXTRAS)) ## run the tests of all that needs no 3D engine
 	@$(VENV)/bin/python -c "$(has_plugins)"
-	@$(VENV)/bin/python -m pytest -p tests.without_3d $(PYTEST_FLAGS) -m 'not ($(3D))'
+	@$(VENV)/bin/python -m pytest -p tests.without_3d $(PYTEST_FLAGS) -m 'not ($(3D)) and not long'
+
+# What takes minutes: trials that misbehave, killed benches, a cluster, whole reports, a browser.
+test-long: $(call stamp,$(TEST_EXTRAS)) ## run the long tests of benches and their reports
+	@$(VENV)/bin/python -m pytest -p tests.without_3d $(PYTEST_FLAGS) -m 'not ($(3D)) and long'
 
 test-3d: $(call stamp,$(TEST_3D_EXTRAS)) ## run the tests of the 3D engines and of Baxter
 	@$(VENV)/bin/python -c "import av, mujoco, ompl.base, pinocchio, toppra, trimesh"
 	@$(VENV)/bin/python -c "$(has_pybullet) and __import__('pybullet')"
-	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS) -m '$(3D)'
+	@$(VENV)/bin/python -m pytest $(PYTEST_FLAGS) -m '($(3D)) and not long'
 
 lint: $(call stamp,$(TEST_EXTRAS)) ## check style, types, layers and spelling
 	@$(VENV)/bin/ruff check

@@ -17,7 +17,7 @@ from phframe.core import Loop, RunSpec
 from phframe.runtime.run import run
 from tests.bench.benches import lives, misbehaving, noted, run_all, settings, until
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]
 
 CRASHED, ERROR, FINISHED = TrialEnd.CRASHED, TrialEnd.ERROR, TrialEnd.FINISHED
 ENDS: Mapping[str, tuple[TrialEnd, str]] = {

@@ -27,6 +27,8 @@ from phframe.core import RunSpec
 from tests.bench.benches import a_result, lives, misbehaving, noted, settings
 from tests.cli.conftest import Invoke, Run, Spawn, until
 
+pytestmark = pytest.mark.long
+
 SMALL = ("bench", "vieira/simple-0[123]", "--planner", "phia", "--planner", "ooa")
 HERE = ("--out", "here")
 LIMITED = """

@@ -16,6 +16,8 @@ from phframe.bench.trial_result import TrialResult
 from tests.bench.report.synthetic import synthetic
 from tests.cli.conftest import Invoke, Run
 
+pytestmark = pytest.mark.long
+
 PLANNERS = ("phia", "ooa")
 
 

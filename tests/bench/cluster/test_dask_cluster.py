@@ -27,7 +27,7 @@ from phframe.core import InputError, RunSpec
 from phframe.runtime.run import prepare
 from tests.bench.cluster.dask_cluster import VERSION, DaskCluster, dask_cluster, look
 
-pytestmark = [pytest.mark.needs_cluster, pytest.mark.slow]
+pytestmark = [pytest.mark.needs_cluster, pytest.mark.slow, pytest.mark.long]
 pytest.importorskip("distributed")
 
 LIMITS = TrialLimits(60.0, 4096)

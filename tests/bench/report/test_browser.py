@@ -16,7 +16,11 @@ from phframe.bench.report.styles import DARK, LIGHT
 from tests.bench.report.synthetic import synthetic
 
 BROWSER = find_chromium()
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.long,
+    pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed"),
+]
 WIDE, NARROW = 1280, 400
 
 

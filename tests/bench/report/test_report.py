@@ -20,6 +20,8 @@ from phframe.bench.trial_result import TrialEnd, TrialResult
 from tests.bench.report.synthetic import SKILL, synthetic
 from tests.bench.synthetic import hostile_result
 
+pytestmark = pytest.mark.long
+
 HOSTILE = '<script>alert("1")</script> | `x` <img src=http://example.invalid/a.png> & {{ 7*7 }}'
 VOID = {"meta", "link", "br", "img", "input", "use", "path", "rect"}
 
