@@ -161,12 +161,7 @@ class Task:
             self._began += time.perf_counter() - began
 
     def ask(self, question: Question) -> Hint | None:
-        """What whoever can be asked says is to be moved next; None: there is no hint. The clock stands still meanwhile.
-
-        Raises:
-            BudgetExceededError: If the budget is spent: nothing could be tried of what is said.
-        """
-        self._spend(1)
+        """What whoever can be asked says is to be moved next; None: there is no hint. The clock stands still meanwhile."""
         with self.paused():
             return self._advisor.advise(question)
 

@@ -46,10 +46,10 @@ class Thinker:
         return Hint(question.blocker, (0.1, 0.2))
 
 
-def task_of(world: PlanningWorld, clock: Clock, simulations: int | None = None) -> Task:
+def task_of(world: PlanningWorld, clock: Clock) -> Task:
     goal, topology = create(Kind.GOAL, "retrieve"), create(Kind.TOPOLOGY, "ripser")
     rng, start = np.random.default_rng(0), SCENE.initial_state()
-    return world.task(start, topology, rng, goal=goal, budget=Budget(10.0, simulations), advisor=Thinker(clock))
+    return world.task(start, topology, rng, goal=goal, budget=Budget(10.0), advisor=Thinker(clock))
 
 
 def test_while_somebody_is_asked_the_clock_stands_still(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -64,15 +64,6 @@ def test_while_somebody_is_asked_the_clock_stands_still(monkeypatch: pytest.Monk
         clock.now += 11.0
         with pytest.raises(BudgetExceededError):
             task.apply(task.start, grasp)
-
-
-def test_nobody_is_asked_what_could_not_be_tried() -> None:
-    clock = Clock()
-    with PlanningWorld(WorldSpec(SCENE)) as world:
-        task = task_of(world, clock, simulations=0)
-        with pytest.raises(BudgetExceededError):
-            task.ask(QUESTION)
-    assert clock.now == 0.0
 
 
 def test_where_nobody_is_there_is_no_hint() -> None:
