@@ -69,6 +69,7 @@ def each_block(language: str) -> pytest.MarkDecorator:
 
 
 EXTRAS_BY_PART = {"mujoco": "mujoco", "pybullet": "pybullet", "baxter": "baxter", "articulated": "baxter"}
+EXTRAS_BY_PART["grtc-kinodynamic"] = "ompl"
 
 
 def marks_of(words: Iterable[str]) -> list[pytest.MarkDecorator]:

@@ -35,7 +35,21 @@ from phframe.registry.load import INTERFACES
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.summary import summarize
 from phframe.urdf.description import ArmDescription, Section, Stand, TipFrame
-from tests.markdown import DOCS, PAGES, README, ROOT, blocks, column, each_page, extras, named, quoted, table, text_of
+from tests.markdown import (
+    DOCS,
+    PAGES,
+    README,
+    ROOT,
+    blocks,
+    column,
+    each_page,
+    extras,
+    marks_of,
+    named,
+    quoted,
+    table,
+    text_of,
+)
 
 PLANNERS = [each.name for each in builtin.EXTENSIONS if each.kind is Kind.PLANNER]
 GRTC = ("grtc-straight", "guided")
@@ -167,7 +181,7 @@ def test_every_deviation_is_explained() -> None:
     assert column("docs/planners.md", "Deviations of what the paper leaves open") == list(Deviation)
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", [pytest.param(each, marks=marks_of([each])) for each in PLANNERS])
 def test_every_planner_and_its_options_are_explained(planner: str) -> None:
     assert f"\n## `{planner}`\n" in text_of(DOCS / "planners.md")
     check_options(option_rows(planner), Kind.PLANNER, planner)

@@ -114,7 +114,7 @@ def test_phframe_itself_is_never_missing(install: Install, found: Discover) -> N
     install("one", offering("straight"), requires=("phframe>=0.1", "pluggy"))
     with pytest.raises(UnknownNameError) as caught:
         load(Kind.PLANNER, "strait", found())
-    assert caught.value.hint == ""
+    assert "phframe' cannot" not in caught.value.hint
 
 
 @pytest.mark.parametrize(
