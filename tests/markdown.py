@@ -68,8 +68,13 @@ def each_block(language: str) -> pytest.MarkDecorator:
     return pytest.mark.parametrize("block", marked, ids=[str(block) for block in found])
 
 
-EXTRAS_BY_PART = {"mujoco": "mujoco", "pybullet": "pybullet", "baxter": "baxter", "articulated": "baxter"}
-EXTRAS_BY_PART["grtc-kinodynamic"] = "ompl"
+EXTRAS_BY_PART = {
+    "mujoco": "mujoco",
+    "pybullet": "pybullet",
+    "baxter": "baxter",
+    "articulated": "baxter",
+    "grtc-kinodynamic": "ompl",
+}
 
 
 def marks_of(words: Iterable[str]) -> list[pytest.MarkDecorator]:

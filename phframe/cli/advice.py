@@ -59,7 +59,7 @@ class TerminalAdvisor:
         console.print(shelf_picture(question, columns, rows), soft_wrap=True)
         if question.refusal:
             self._say(f"That cannot be: {question.refusal.rstrip('.')}.")
-        self._say(f"{question.blocker} (x) is in the way to {question.scene.target} (*). What is to go where?")
+        self._say(f"{question.blocker} (x) blocks the way to {question.scene.target} (*). What is to go where?")
 
     def _read(self) -> str:
         """A line that was typed; empty at the end of the input."""

@@ -30,7 +30,7 @@ class Question(Value):
     Attributes:
         scene: The scene.
         state: The world as it is where the hint is wanted.
-        blocker: Id of the object that is in the way.
+        blocker: Id of the object that blocks the drive at the target.
         corridor: Corners ``(k, 2)`` of the way to the target that is to be free (m).
         refusal: Why the last answer could not be used; empty: there was none.
     """

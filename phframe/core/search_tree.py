@@ -54,7 +54,7 @@ class SearchTree:
         self._nodes[node] = replace(self._nodes[node], closed=why)
 
     def close_others(self, node: int, why: str) -> None:
-        """Say why the search went on from no node that is still open and not on the path to one of them."""
+        """Close every node that is still open, but for a node and those that lead to it; say why they are looked at no further."""
         for row in set(range(len(self._nodes))) - set(path_to(self._nodes, node)):
             if not self._nodes[row].closed:
                 self.close(row, why)

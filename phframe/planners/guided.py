@@ -50,7 +50,7 @@ class GuidedOptions(StraightPushOptions):
 
 
 class Guided(Planner[GuidedOptions]):
-    """Drives straight at the target in simulation; asks what to push where as long as something is in the way; grasps."""
+    """Drives straight at the target in simulation; asks what to push where as long as something blocks that; grasps."""
 
     options_type = GuidedOptions
 
@@ -91,7 +91,7 @@ def _asked(task: Task, grtc: GrtcSearch, met: Obstruction) -> int | str:
     for _ in range(MOST_REFUSALS):
         hint = task.ask(Question(grtc.search.pushing.scene, met.state, met.blocker, corridor, refusal))
         if hint is None:
-            return f"no hint what to do about {met.blocker}, which is in the way: {REMEDY}"
+            return f"no hint what to do about {met.blocker}, which blocks the drive: {REMEDY}"
         pushed = _push(grtc, met, hint)
         if isinstance(pushed, int):
             return pushed

@@ -53,7 +53,7 @@ class _Visits:
     Attributes:
         untried: Pushes that were not simulated yet.
         children: The nodes that those simulated led to.
-        members: Obstacles in the way.
+        members: Blocking obstacles.
         components: Of these, at the threshold h.
         visits: How often a push was tried here or further down, n.
         reward: What these pushes brought, in all.

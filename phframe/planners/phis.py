@@ -63,7 +63,7 @@ class _BreadthFirst:
         self._search = PushSearch(task, options)
         self._tree = self._search.tree
         self._tree.rate(ROOT, 0.0)
-        self._left: dict[int, int] = {}  # obstacles in the way at a node
+        self._left: dict[int, int] = {}  # blocking obstacles at a node
         self._made: dict[_Push, int] = {}  # the node that each simulated push led to
         self._spare: list[_Choice] = []  # of which a sweep was safe, in the order they were tried
         self._best: tuple[int, Assessment] | None = None

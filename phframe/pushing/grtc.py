@@ -40,7 +40,7 @@ class StraightPushDecision(PushDecision):
 
 @dataclass(frozen=True, slots=True)
 class Obstruction:
-    """What is in the way at a node of the search.
+    """What blocks the straight drive at a node of the search.
 
     Attributes:
         node: The node.

@@ -162,7 +162,7 @@ class PushSearch:
         return ""
 
     def _idle_pushes(self, node: int, problem: PushProblem) -> int:
-        """How many pushes ago, on the path to a node, the obstacles in the way were first as few as they ever were."""
+        """How many pushes ago, on the path to a node, the blocking obstacles were first as few as they ever were."""
         members = [len(PushDecision.of(each.decision).members) for each in self.tree.path(node)]
         left = [*members, len(problem.members)]
         return len(members) - left.index(min(left))

@@ -98,7 +98,7 @@ def asked(terminal: Callable[..., Terminal], *arguments: str) -> Terminal:
 
 def test_a_person_is_shown_the_shelf_asked_refused_and_obeyed(terminal: Callable[..., Terminal], run: Run) -> None:
     screen = asked(terminal)
-    assert "object_3 (x) is in the way to target (*). What is to go where?" in screen.shown
+    assert "object_3 (x) blocks the way to target (*). What is to go where?" in screen.shown
     assert "+ x = 0.55 m" in screen.shown
     assert "x = 0: the mouth" in screen.shown
     screen.type("over there\n")

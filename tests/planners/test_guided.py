@@ -98,7 +98,7 @@ def test_answers_that_cannot_be_used_are_asked_again_with_the_reason(answer: Hin
 def test_without_an_answer_it_fails_and_says_what_to_do() -> None:
     episode, _ = guided(TWO_IN_THE_WAY, ASIDE)
     assert (episode.status, episode.steps) == (Status.FAILED, ())
-    assert "o1, which is in the way" in episode.reason
+    assert "o1, which blocks the drive" in episode.reason
     assert "--option hints=FILE" in episode.reason
     assert [hint for hint in map(_hint, episode.plans[0].decisions) if hint] == [ASIDE]
     alone = solve(ONE_IN_THE_WAY, planner="guided")
