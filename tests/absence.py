@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Sequence
-from importlib import metadata
+from contextlib import suppress
+from importlib import import_module, metadata
 from importlib.machinery import ModuleSpec
 from typing import Any
 
@@ -60,5 +61,7 @@ def hide(modules: Sequence[str]) -> None:
     """
     if loaded := sorted(set(modules) & sys.modules.keys()):
         raise RuntimeError(f"already imported: {', '.join(loaded)}")
+    with suppress(ImportError):  # when imported, it puts a finder of all distributions in place of Python's own
+        import_module("importlib_metadata")
     finders = [Without(each, modules) if hasattr(each, "find_distributions") else each for each in sys.meta_path]
     sys.meta_path[:] = finders

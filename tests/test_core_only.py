@@ -28,6 +28,14 @@ for module, distribution in DISTRIBUTIONS.items():
         except metadata.PackageNotFoundError:
             print("hidden")
 """
+REPLACED_FINDER = """
+from importlib import metadata
+from tests.absence import DISTRIBUTIONS, hide
+hide(tuple(DISTRIBUTIONS))
+import importlib_metadata
+found = [name for name in DISTRIBUTIONS.values() if list(metadata.distributions(name=name))]
+print(found, len(list(metadata.distributions(name="pytest"))))
+"""
 REPORT = (
     "import sys; from phframe import solve; print(solve('vieira/simple-07').status); "
     f"print(sorted({set(DISTRIBUTIONS)!r} & sys.modules.keys()))"
@@ -51,6 +59,12 @@ def phframe(line: str, folder: Path, hidden: Sequence[str] = ALL) -> subprocess.
 def test_what_is_hidden_cannot_be_imported(tmp_path: Path) -> None:
     done = python(PROBE, folder=tmp_path)
     assert (done.returncode, done.stdout) == (0, "hidden\n" * len(DISTRIBUTIONS)), done.stderr
+
+
+def test_a_library_that_replaces_the_finder_of_distributions_brings_nothing_back(tmp_path: Path) -> None:
+    pytest.importorskip("importlib_metadata")
+    done = python(REPLACED_FINDER, folder=tmp_path)
+    assert (done.returncode, done.stdout) == (0, "[] 1\n"), done.stderr
 
 
 def test_solving_imports_no_library_for_3d(tmp_path: Path) -> None:
