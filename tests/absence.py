@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from importlib import import_module, metadata
 from importlib.machinery import ModuleSpec
@@ -45,12 +45,13 @@ class Without:
         """All but those that are hidden."""
         if context and context[0].name in self._distributions:
             return ()
-        found: Iterable[metadata.Distribution] = self._finder.find_distributions(*context)
-        return found
+        find: Callable[..., Iterable[metadata.Distribution]] | None = getattr(self._finder, "find_distributions", None)
+        return find(*context) if find else ()
 
     def invalidate_caches(self) -> None:
         """As the finder does."""
-        self._finder.invalidate_caches()
+        if invalidate := getattr(self._finder, "invalidate_caches", None):
+            invalidate()
 
 
 def hide(modules: Sequence[str]) -> None:
@@ -63,5 +64,4 @@ def hide(modules: Sequence[str]) -> None:
         raise RuntimeError(f"already imported: {', '.join(loaded)}")
     with suppress(ImportError):  # when imported, it puts a finder of all distributions in place of Python's own
         import_module("importlib_metadata")
-    finders = [Without(each, modules) if hasattr(each, "find_distributions") else each for each in sys.meta_path]
-    sys.meta_path[:] = finders
+    sys.meta_path[:] = [Without(finder, modules) for finder in sys.meta_path]
