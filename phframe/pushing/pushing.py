@@ -71,10 +71,13 @@ class Pushing:
         if isinstance(corridor, Infeasible):
             return corridor
         chosen = self._with_room(corridor, state) if self.options.sweeps == "fitted" else corridor
-        members = self._members(chosen, state, blockers)
         deviations = () if chosen is corridor else (Deviation.ANGLED_EARLY,)
-        local = chosen.to_local(state.positions[members])
-        return PushProblem(state, chosen, members, local, tuple(blockers), deviations)
+        return replace(self.problem_along(state, chosen, blockers), deviations=deviations)
+
+    def problem_along(self, state: State, corridor: Corridor, blockers: Sequence[str] = ()) -> PushProblem:
+        """What is to be pushed out of any corridor to the target; see ``corridor_at``."""
+        members = self._members(corridor, state, blockers)
+        return PushProblem(state, corridor, members, corridor.to_local(state.positions[members]), tuple(blockers))
 
     def _with_room(self, corridor: Corridor, state: State) -> Corridor:
         inside = self._members(corridor, state)
@@ -174,11 +177,14 @@ class Pushing:
 
     def grasp(self, problem: PushProblem) -> Grasp | Infeasible:
         """The reach, grasp and withdrawal along the corridor, if the target can be got at without what was rejected."""
-        task, corridor = self.task, problem.corridor
-        found = grasp_action(self.scene, problem.state, corridor, task.arm, self.options, task.rejects)
+        found = self.grasp_along(problem.state, problem.corridor)
         if isinstance(found, Infeasible):
             return found
         return replace(found, deviations=(*problem.deviations, *found.deviations))
+
+    def grasp_along(self, state: State, corridor: Corridor) -> Grasp | Infeasible:
+        """The same along any corridor; see ``corridor_at``."""
+        return grasp_action(self.scene, state, corridor, self.task.arm, self.options, self.task.rejects)
 
     def _generator(self, problem: PushProblem, chosen: IntArray) -> SweepGenerator:
         return SweepGenerator(

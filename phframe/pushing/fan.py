@@ -1,0 +1,79 @@
+"""Straight drives to the target at a fan of angles: grasps that nothing blocks, and what blocks the others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from phframe.core import Infeasible, State
+from phframe.core.gripper_path import LEAST_AHEAD
+from phframe.pushing.corridor import Corridor, corridor_at
+from phframe.pushing.grasp import Grasp
+from phframe.pushing.push_problem import PushProblem
+from phframe.pushing.pushing import Pushing
+
+WIDE = tuple(math.radians(degrees) for degrees in (0, 15, -15, 30, -30, 45, -45))
+"""Angles in the shelf frame, positive towards the north (rad)."""
+SAME_ANGLE = math.radians(2.0)
+"""Angles that differ by less are one (rad)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drive:
+    """One straight drive to the target.
+
+    Attributes:
+        problem: The corridor at its angle, and what blocks it.
+        grasp: What can be done as it is, or why not.
+    """
+
+    problem: PushProblem
+    grasp: Grasp | Infeasible
+
+    @property
+    def angle(self) -> float:
+        """Of the drive (rad), positive towards the north."""
+        return self.problem.corridor.angle
+
+    @property
+    def by_wall(self) -> bool:
+        """Whether a wall, or the arm itself, is what blocks it: no push of obstacles helps."""
+        return isinstance(self.grasp, Infeasible) and not self.grasp.blockers
+
+
+def drives(pushing: Pushing, state: State, fan: Sequence[float]) -> list[Drive] | Infeasible:
+    """The drives to the target where it is now: along the paper's corridor, and at the angles of a fan.
+
+    Args:
+        pushing: The geometry of the task.
+        state: The world at rest.
+        fan: Angles in the shelf frame (rad).
+    """
+    problem = pushing.problem(state)
+    if isinstance(problem, Infeasible):
+        if state.conditions[pushing.scene.target_index] != "upright":
+            return problem
+        corridors = []
+    else:
+        corridors = [problem.corridor]
+    target = state.positions[pushing.scene.target_index]
+    for angle in fan:
+        known = any(abs(angle - corridor.angle) < SAME_ANGLE for corridor in corridors)
+        if not known and math.cos(angle) > LEAST_AHEAD:
+            corridors.append(corridor_at(angle, target, pushing.half_width))
+    return [_drive(pushing, state, corridor) for corridor in corridors]
+
+
+def _drive(pushing: Pushing, state: State, corridor: Corridor) -> Drive:
+    grasp = pushing.grasp_along(state, corridor)
+    blockers = grasp.blockers if isinstance(grasp, Infeasible) else ()
+    return Drive(pushing.problem_along(state, corridor, blockers), grasp)
+
+
+def swerve(pushing: Pushing, grasp: Grasp) -> float:
+    """How far the target, drawn out by a grasp, sticks out past the line of a side wall (m); 0: it stays between them."""
+    scene = pushing.scene
+    radius, width = float(scene.radii[scene.target_index]), scene.shelf.width
+    last = float(grasp.action.path.poses[-1, 1])
+    return max(0.0, radius - last, last + radius - width)
