@@ -66,6 +66,8 @@ class Task:
         goal: What is to be achieved.
         arm: The arm seen from above.
         rejected: Actions that could not be carried out or came to nothing, and why; see ``rejects``.
+        earlier: What the plan before this one had tried from where its last action that was carried out was to lead: a tree
+            whose root is the state that was expected there. None: this is the first plan.
         rng: The only source of randomness.
         budget: What may be spent; ``apply`` keeps to it.
     """
@@ -83,13 +85,16 @@ class Task:
         apply_many: ApplyMany | None = None,
         budget: Budget = Budget(),
         rejected: tuple[Rejection, ...] = (),
+        earlier: ExploredTree | None = None,
         reach: Reach | None = None,
+        confirm: Apply | None = None,
         steered: SupportsPropagation[Any] | None = None,
         begin_steering: Begin | None = None,
         advisor: Advisor = NOBODY,
     ) -> None:
         self.scene, self.start, self.goal, self.arm = scene, start, goal, arm
-        self.rejected, self.rng, self.budget = rejected, rng, budget
+        self.rejected, self.earlier, self.rng, self.budget = rejected, earlier, rng, budget
+        self._confirm = confirm
         self._apply, self._apply_many, self._topology = apply, apply_many, topology
         self._reach, self._steered, self._begin_steering = reach, steered, begin_steering
         self._advisor, self._began = advisor, time.perf_counter()
@@ -121,6 +126,21 @@ class Task:
             self._spend(len(pairs))
             return [self.apply(state, action, stop=stop) for state, action in pairs]
         return self._simulated(lambda: list(many(pairs, stop)), len(pairs))
+
+    @property
+    def confirms(self) -> bool:
+        """Whether actions can be simulated in the engine that will execute them, which is another than the planning world's."""
+        return self._confirm is not None
+
+    def confirm(self, state: State, action: Action) -> Transition:
+        """``apply`` in the engine that will execute the plan, and by its arm; without one, in the planning world.
+
+        Args:
+            state: The state; one that this returned holds the arm where it stands then.
+            action: What is done. One that the arm cannot do changes nothing; the motion says why.
+        """
+        confirm = self._confirm or self._apply
+        return self._simulated(lambda: confirm(state, action, None))
 
     def rejects(self, action: Action) -> Rejection | None:
         """Why an action is not to be proposed (again); None: it may be. Deviations below a millimetre do not count."""

@@ -4,33 +4,48 @@ This is the public list: what planners, phframe's own and those of plugins, are 
 """
 
 from phframe.pushing.clearing import ChooseRadius, Clearing
-from phframe.pushing.corridor import Corridor, corridor_half_width, find_corridor
+from phframe.pushing.confirmed import Confirmed
+from phframe.pushing.corridor import Corridor, corridor_at, corridor_half_width, find_corridor
+from phframe.pushing.cut_short import cut_short
 from phframe.pushing.deviation import Deviation
+from phframe.pushing.fan import WIDE_FAN, Drive, drives, swerve
 from phframe.pushing.grasp import Grasp, grasp_action
 from phframe.pushing.grouping import Rectangle, bounding_rectangle, closest_component
+from phframe.pushing.groups import Group, Grouping, Radii, closest_groups
 from phframe.pushing.grtc import GrtcDeviation, GrtcSearch, Obstruction, StraightPushDecision
+from phframe.pushing.harm import MOVED_TARGET, harm
+from phframe.pushing.known_transitions import KnownTransitions
 from phframe.pushing.options import ClearingOptions, PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
 from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, by_direction, is_unchanged
 from phframe.pushing.pushing import Pushing
+from phframe.pushing.reach_of_target import ReachOfTarget
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
 from phframe.pushing.straight_drive import StraightDrive, first_blocker, straight_drive
 from phframe.pushing.straight_push import StraightPusher, StraightPushOptions
 from phframe.pushing.sweep import Sweep, push_action
 from phframe.pushing.sweep_generator import SweepGenerator
+from phframe.pushing.target_push import target_pushes
 
 __all__ = [
+    "MOVED_TARGET",
     "UNCHANGED",
+    "WIDE_FAN",
     "ChooseRadius",
     "Clearing",
     "ClearingOptions",
+    "Confirmed",
     "Corridor",
     "Deviation",
+    "Drive",
     "Grasp",
+    "Group",
+    "Grouping",
     "GrtcDeviation",
     "GrtcSearch",
+    "KnownTransitions",
     "Obstruction",
     "Proposal",
     "PushDecision",
@@ -38,6 +53,8 @@ __all__ = [
     "PushSearch",
     "Pushing",
     "PushingOptions",
+    "Radii",
+    "ReachOfTarget",
     "Rectangle",
     "Retrieve",
     "RetrieveOptions",
@@ -50,15 +67,22 @@ __all__ = [
     "bounding_rectangle",
     "by_direction",
     "closest_component",
+    "closest_groups",
+    "corridor_at",
     "corridor_half_width",
+    "cut_short",
+    "drives",
     "find_corridor",
     "first_blocker",
     "grasp_action",
+    "harm",
     "is_cleared",
     "is_unchanged",
     "persistent_radii",
     "push_action",
     "straight_drive",
+    "swerve",
+    "target_pushes",
     "usable_radii",
     "usable_threshold",
 ]

@@ -6,14 +6,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from phframe.core import Infeasible, State
+from phframe.core import Condition, Infeasible, State
 from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.pushing.corridor import Corridor, corridor_at
 from phframe.pushing.grasp import Grasp
 from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.pushing import Pushing
 
-WIDE = tuple(math.radians(degrees) for degrees in (0, 15, -15, 30, -30, 45, -45))
+WIDE_FAN = tuple(math.radians(degrees) for degrees in (0, 15, -15, 30, -30, 45, -45))
 """Angles in the shelf frame, positive towards the north (rad)."""
 SAME_ANGLE = math.radians(2.0)
 """Angles that differ by less are one (rad)."""
@@ -37,6 +37,11 @@ class Drive:
         return self.problem.corridor.angle
 
     @property
+    def blocking(self) -> int:
+        """How many obstacles block it."""
+        return len(self.problem.members)
+
+    @property
     def by_wall(self) -> bool:
         """Whether a wall, or the arm itself, is what blocks it: no push of obstacles helps."""
         return isinstance(self.grasp, Infeasible) and not self.grasp.blockers
@@ -51,12 +56,9 @@ def drives(pushing: Pushing, state: State, fan: Sequence[float]) -> list[Drive] 
         fan: Angles in the shelf frame (rad).
     """
     problem = pushing.problem(state)
-    if isinstance(problem, Infeasible):
-        if state.conditions[pushing.scene.target_index] != "upright":
-            return problem
-        corridors = []
-    else:
-        corridors = [problem.corridor]
+    if isinstance(problem, Infeasible) and state.conditions[pushing.scene.target_index] is not Condition.UPRIGHT:
+        return problem
+    corridors = [] if isinstance(problem, Infeasible) else [problem.corridor]
     target = state.positions[pushing.scene.target_index]
     for angle in fan:
         known = any(abs(angle - corridor.angle) < SAME_ANGLE for corridor in corridors)

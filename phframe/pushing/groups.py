@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from phframe.core import IntArray, PersistenceDiagram
 from phframe.pushing.grouping import closest_component
+from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.pushing import Pushing
 
@@ -32,6 +33,13 @@ class Group:
     radius: float = 0.0
     diagram: PersistenceDiagram | None = None
     labels: IntArray | None = None
+
+    def told_in(self, decision: PushDecision) -> PushDecision:
+        """A decision to push it, which says how it was grouped."""
+        if self.labels is None:
+            return replace(decision, why="the closest obstacle")
+        why = f"the closest component at a radius of {1000 * self.radius:.0f} mm"
+        return replace(decision, why=why, radius=self.radius, diagram=self.diagram, labels=self.labels)
 
 
 def closest_groups(pushing: Pushing, problem: PushProblem, grouping: Grouping, radii: Radii) -> list[Group]:

@@ -20,6 +20,7 @@ from phframe.core import (
     Cost,
     Decision,
     Episode,
+    ExploredTree,
     Goal,
     Plan,
     Planner,
@@ -34,6 +35,7 @@ from phframe.core import (
     Watch,
 )
 from phframe.core.episode import MOVED
+from phframe.runtime.confirmation import Confirmation
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
@@ -54,6 +56,7 @@ def run_episode(
     observers: Sequence[Observer] = (),
     sensor: Sensor | None = None,
     advisor: Advisor = NOBODY,
+    confirmation: Confirmation | None = None,
 ) -> Episode:
     """Plan in one world and carry the plan out in another, which may be more real.
 
@@ -70,9 +73,10 @@ def run_episode(
         sensor: Through which the robot sees the world: what it plans, expects and aims at comes from that, what is told
             of the episode from the world as it is. None: it sees everything as it is.
         advisor: Whom the planner may ask.
+        confirmation: By which the planner may simulate in an engine like that of the execution; None: where it plans.
     """
     see = (lambda state: state) if sensor is None else sensor.see
-    return _Run(planner, topology, planning, execution, goal, spec, observers, see, advisor).episode()
+    return _Run(planner, topology, planning, execution, goal, spec, observers, see, advisor, confirmation).episode()
 
 
 class _Run:
@@ -89,10 +93,11 @@ class _Run:
         observers: Sequence[Observer],
         see: Callable[[State], State],
         advisor: Advisor,
+        confirmation: Confirmation | None,
     ) -> None:
         self._planner, self._topology, self._planning, self._execution = planner, topology, planning, execution
         self._goal, self._spec, self._loop, self._observers, self._see = goal, spec, spec.loop, observers, see
-        self._advisor, self._scene = advisor, execution.scene
+        self._advisor, self._confirmation, self._scene = advisor, confirmation, execution.scene
         self._seeds = np.random.SeedSequence(spec.seed)
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
@@ -121,7 +126,7 @@ class _Run:
             tuple(self._plans),
             tuple(self._steps),
             self._rejections,
-            self._execution.motion_planning_time + self._planning.motion_planning_time,
+            self._execution.motion_planning_time + self._motion_planning_within,
             versions_of(self._spec),
         )
 
@@ -164,7 +169,7 @@ class _Run:
         """Ask the planner, with what is left of the time."""
         spent, loop = sum((plan.cost for plan in self._plans), Cost()), self._loop
         simulations = None if loop.simulations is None else max(0, loop.simulations - spent.simulated_actions)
-        before = self._planning.motion_planning_time
+        before = self._motion_planning_within
         task = self._planning.task(
             self._seen if self._same_arm else _for_another_arm(self._seen),
             self._topology,
@@ -173,15 +178,30 @@ class _Run:
             arm=self._execution.arm.shape,
             budget=Budget(max(0.0, loop.time_limit - spent.total), simulations),
             rejected=self._rejections,
+            earlier=self._earlier,
             reach=self._execution.unreachable,
+            confirm=None if self._confirmation is None else self._confirmation.apply,
             advisor=self._advisor,
         )
         plan = self._planner.plan(task)
-        within = self._planning.motion_planning_time - before
+        within = self._motion_planning_within - before
         plan = replace(plan, cost=replace(plan.cost, motion_planning=plan.cost.motion_planning + within))
         self._plans.append(plan)
         self._tell(lambda observer: observer.planned(plan))
         return plan
+
+    @property
+    def _motion_planning_within(self) -> float:
+        """Wall time of motion planning for simulated actions so far (s)."""
+        confirmed = 0.0 if self._confirmation is None else self._confirmation.motion_planning_time
+        return self._planning.motion_planning_time + confirmed
+
+    @property
+    def _earlier(self) -> ExploredTree | None:
+        """What the last plan had tried from where its actions that were carried out were to lead."""
+        if not self._plans or (tree := self._plans[-1].tree) is None:
+            return None
+        return tree.after(sum(step.plan == len(self._plans) - 1 for step in self._steps))
 
     @property
     def _same_arm(self) -> bool:

@@ -18,6 +18,7 @@ from phframe.core import (
     ArmShape,
     ArmState,
     Budget,
+    ExploredTree,
     FloatArray,
     Goal,
     Motion,
@@ -34,7 +35,7 @@ from phframe.core import (
     Unreachable,
     Watch,
 )
-from phframe.core.task import Pair, Reach
+from phframe.core.task import Apply, Pair, Reach
 from phframe.runtime.world import World, WorldSpec
 
 
@@ -83,7 +84,9 @@ class PlanningWorld(World):
         arm: ArmShape | None = None,
         budget: Budget = Budget(),  # noqa: B008 - immutable
         rejected: tuple[Rejection, ...] = (),
+        earlier: ExploredTree | None = None,
         reach: Reach | None = None,
+        confirm: Apply | None = None,
         advisor: Advisor = NOBODY,
     ) -> Task:
         """The problem of achieving a goal from a state in this world.
@@ -96,7 +99,9 @@ class PlanningWorld(World):
             arm: The one that will carry the plan out; None: this world's.
             budget: What the planner may spend.
             rejected: Actions that could not be carried out, or came to nothing.
+            earlier: What the plan before had tried from where it was to be now; None: there was none.
             reach: Whether the arm that will carry the plan out can follow an action; None: not known.
+            confirm: Simulates an action in the engine that will carry the plan out; None: that is this world's.
             advisor: Whom the planner may ask.
         """
         return Task(
@@ -110,7 +115,9 @@ class PlanningWorld(World):
             rng=rng,
             budget=budget,
             rejected=rejected,
+            earlier=earlier,
             reach=reach,
+            confirm=confirm,
             steered=self.physics if isinstance(self.physics, SupportsPropagation) else None,
             begin_steering=self._begin_steering,
             advisor=advisor,

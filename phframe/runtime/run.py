@@ -21,6 +21,7 @@ from phframe.core import (
 )
 from phframe.core.run_spec import PARTS
 from phframe.registry import Kind, create, identify, load, refuse_stored_code
+from phframe.runtime.confirmation import Confirmation
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.noise import Noise
@@ -57,9 +58,20 @@ def run(
         ready = prepare(spec)
         planning = stack.enter_context(PlanningWorld(ready.plan_world, spec.workers))
         execution = stack.enter_context(ExecutionWorld(ready.world))
+        believed = replace(ready.world, scene=ready.plan_world.scene)
+        confirmation = None if believed == ready.plan_world else stack.enter_context(Confirmation(believed))
         sensor = Sensor(ready.noise, ready.scene, execution.arm.shape, spec.seed)
         return run_episode(
-            ready.planner, ready.topology, planning, execution, ready.goal, ready.spec, observers, sensor, advisor
+            ready.planner,
+            ready.topology,
+            planning,
+            execution,
+            ready.goal,
+            ready.spec,
+            observers,
+            sensor,
+            advisor,
+            confirmation,
         )
 
 
