@@ -11,7 +11,20 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from phframe.core import ROOT, Infeasible, Plan, Planner, State, Status, StopCause, Task, Transition
+from phframe.core import (
+    ROOT,
+    Certainty,
+    Decision,
+    Infeasible,
+    Particle,
+    Plan,
+    Planner,
+    State,
+    Status,
+    StopCause,
+    Task,
+    Transition,
+)
 from phframe.pushing import (
     MOVED_TARGET,
     WIDE_FAN,
@@ -32,6 +45,7 @@ from phframe.pushing import (
     drives,
     harm,
     is_unchanged,
+    rehearse,
     swerve,
     target_pushes,
 )
@@ -63,6 +77,9 @@ class SureOptions(PushingOptions):
         target_pushes: Whether the target itself may be pushed where nothing else helps.
         confirm: Whether a plan is simulated in the engine that executes it, if that is another one, before the arm moves;
             one that does not come true there is a dead end.
+        particles: Samples of the world in which a plan is rehearsed where noise is declared; 0: none.
+        certain: Share of the samples in which a plan must be clean to be carried out at once ...
+        rehearsals: ... until so many plans were rehearsed: then the surest of them is.
         max_nodes: Nodes of the search tree after which to give up.
     """
 
@@ -75,6 +92,9 @@ class SureOptions(PushingOptions):
     grasp: Literal["first", "empty-corridor"] = "first"
     target_pushes: bool = True
     confirm: bool = True
+    particles: Annotated[int, Field(ge=0, le=1000)] = 8
+    certain: Annotated[float, Field(ge=0.0, le=1.0)] = 0.9
+    rehearsals: Annotated[int, Field(ge=1, le=1000)] = 10
     max_nodes: Annotated[int, Field(ge=1, le=1_000_000)] = 400
 
 
@@ -117,6 +137,9 @@ class _LazySearch:
         self._queue: list[tuple[float, int, _Candidate]] = []
         self._order = count()
         self._seen = {_alike(task.start)}
+        self._particles: tuple[Particle, ...] | None = None  # not drawn yet
+        self._rehearsed = 0
+        self._best: tuple[int, Certainty] | None = None
 
     def run(self) -> Plan:
         """Try what promises the fewest pushes until a grasp succeeds."""
@@ -131,7 +154,7 @@ class _LazySearch:
                 self._fit(candidate)
             else:
                 plan = self._push(estimate, candidate, candidate.push)
-        return plan or self._failure()
+        return plan or self._chosen() or self._failure()
 
     @property
     def _room(self) -> bool:
@@ -205,9 +228,34 @@ class _LazySearch:
         self._tree.close(end, why)
         self._reach.ask(self._search.state(node))
 
-    def _plan(self, end: int) -> Plan:
-        self._tree.close_others(end, "another path led to a clean grasp first")
-        return self._tree.plan(end, Status.RETRIEVED)
+    def _plan(self, end: int) -> Plan | None:
+        """The plan that ends with a clean grasp; None where samples of the world make it so unsure that others are looked at."""
+        if self._particles is None:
+            self._particles = self._task.particles(self._options.particles)
+        actions = [node.action for node in self._tree.path(end) if node.action is not None]
+        certainty = rehearse(self._search, actions, self._particles, None)
+        self._rehearsed += 1
+        if self._best is None or (certainty.share or 0.0) > (self._best[1].share or 0.0):
+            self._best = end, certainty
+            self._task.offer(self._told(end, certainty))
+        if not certainty.samples or self._rehearsed >= self._options.rehearsals:
+            return self._chosen()
+        if certainty.clean >= self._options.certain * certainty.samples:
+            return self._chosen()
+        self._tree.close(end, f"clean in {certainty.clean} of {certainty.samples} samples of the world")
+        return None
+
+    def _chosen(self) -> Plan | None:
+        """The surest of the plans that were rehearsed."""
+        if self._best is None:
+            return None
+        end, certainty = self._best
+        self._tree.reopen(end, self._tree[end].decision or Decision())
+        self._tree.close_others(end, "another path leads to a surer clean grasp, or did first")
+        return self._told(end, certainty)
+
+    def _told(self, end: int, certainty: Certainty) -> Plan:
+        return replace(self._tree.plan(end, Status.RETRIEVED), certainty=certainty)
 
     def _fit(self, candidate: _Candidate) -> None:
         """Queue the sweeps that fit."""

@@ -22,6 +22,7 @@ from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, by_direction, is_unchanged
 from phframe.pushing.pushing import Pushing
 from phframe.pushing.reach_of_target import ReachOfTarget
+from phframe.pushing.rehearsal import rehearse
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
 from phframe.pushing.straight_drive import StraightDrive, first_blocker, straight_drive
 from phframe.pushing.straight_push import StraightPusher, StraightPushOptions
@@ -80,6 +81,7 @@ __all__ = [
     "is_unchanged",
     "persistent_radii",
     "push_action",
+    "rehearse",
     "straight_drive",
     "swerve",
     "target_pushes",

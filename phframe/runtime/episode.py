@@ -9,10 +9,8 @@ from typing import Any
 import numpy as np
 
 from phframe.core import (
-    NOBODY,
     Action,
     ActionKind,
-    Advisor,
     Assessment,
     Attempt,
     Budget,
@@ -35,7 +33,7 @@ from phframe.core import (
     Watch,
 )
 from phframe.core.episode import MOVED
-from phframe.runtime.confirmation import Confirmation
+from phframe.runtime.aids import Aids
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
@@ -55,8 +53,7 @@ def run_episode(
     spec: RunSpec,
     observers: Sequence[Observer] = (),
     sensor: Sensor | None = None,
-    advisor: Advisor = NOBODY,
-    confirmation: Confirmation | None = None,
+    aids: Aids = Aids(),  # noqa: B008 - immutable
 ) -> Episode:
     """Plan in one world and carry the plan out in another, which may be more real.
 
@@ -72,11 +69,10 @@ def run_episode(
         observers: Who looks on.
         sensor: Through which the robot sees the world: what it plans, expects and aims at comes from that, what is told
             of the episode from the world as it is. None: it sees everything as it is.
-        advisor: Whom the planner may ask.
-        confirmation: By which the planner may simulate in an engine like that of the execution; None: where it plans.
+        aids: What the planner may use besides.
     """
     see = (lambda state: state) if sensor is None else sensor.see
-    return _Run(planner, topology, planning, execution, goal, spec, observers, see, advisor, confirmation).episode()
+    return _Run(planner, topology, planning, execution, goal, spec, observers, see, aids).episode()
 
 
 class _Run:
@@ -92,12 +88,11 @@ class _Run:
         spec: RunSpec,
         observers: Sequence[Observer],
         see: Callable[[State], State],
-        advisor: Advisor,
-        confirmation: Confirmation | None,
+        aids: Aids,
     ) -> None:
         self._planner, self._topology, self._planning, self._execution = planner, topology, planning, execution
         self._goal, self._spec, self._loop, self._observers, self._see = goal, spec, spec.loop, observers, see
-        self._advisor, self._confirmation, self._scene = advisor, confirmation, execution.scene
+        self._aids, self._scene = aids, execution.scene
         self._seeds = np.random.SeedSequence(spec.seed)
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
@@ -170,8 +165,10 @@ class _Run:
         spent, loop = sum((plan.cost for plan in self._plans), Cost()), self._loop
         simulations = None if loop.simulations is None else max(0, loop.simulations - spent.simulated_actions)
         before = self._motion_planning_within
+        confirmation, particles = self._aids.confirmation, self._aids.particles
+        start = self._seen if self._same_arm else _for_another_arm(self._seen)
         task = self._planning.task(
-            self._seen if self._same_arm else _for_another_arm(self._seen),
+            start,
             self._topology,
             np.random.default_rng(self._seeds.spawn(1)[0]),
             goal=self._goal,
@@ -180,8 +177,9 @@ class _Run:
             rejected=self._rejections,
             earlier=self._earlier,
             reach=self._execution.unreachable,
-            confirm=None if self._confirmation is None else self._confirmation.apply,
-            advisor=self._advisor,
+            confirm=None if confirmation is None else confirmation.apply,
+            sample=None if particles is None else lambda number: particles.draw(start, number),
+            advisor=self._aids.advisor,
         )
         plan = self._planner.plan(task)
         within = self._motion_planning_within - before
@@ -193,8 +191,7 @@ class _Run:
     @property
     def _motion_planning_within(self) -> float:
         """Wall time of motion planning for simulated actions so far (s)."""
-        confirmed = 0.0 if self._confirmation is None else self._confirmation.motion_planning_time
-        return self._planning.motion_planning_time + confirmed
+        return self._planning.motion_planning_time + self._aids.motion_planning_time
 
     @property
     def _earlier(self) -> ExploredTree | None:

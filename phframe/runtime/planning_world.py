@@ -35,7 +35,8 @@ from phframe.core import (
     Unreachable,
     Watch,
 )
-from phframe.core.task import Apply, Pair, Reach
+from phframe.core.particle import Apply
+from phframe.core.task import Pair, Reach, Sample
 from phframe.runtime.world import World, WorldSpec
 
 
@@ -87,6 +88,7 @@ class PlanningWorld(World):
         earlier: ExploredTree | None = None,
         reach: Reach | None = None,
         confirm: Apply | None = None,
+        sample: Sample | None = None,
         advisor: Advisor = NOBODY,
     ) -> Task:
         """The problem of achieving a goal from a state in this world.
@@ -102,6 +104,7 @@ class PlanningWorld(World):
             earlier: What the plan before had tried from where it was to be now; None: there was none.
             reach: Whether the arm that will carry the plan out can follow an action; None: not known.
             confirm: Simulates an action in the engine that will carry the plan out; None: that is this world's.
+            sample: Draws samples of what the world may be; None: what is believed of it is certain.
             advisor: Whom the planner may ask.
         """
         return Task(
@@ -118,6 +121,7 @@ class PlanningWorld(World):
             earlier=earlier,
             reach=reach,
             confirm=confirm,
+            sample=sample,
             steered=self.physics if isinstance(self.physics, SupportsPropagation) else None,
             begin_steering=self._begin_steering,
             advisor=advisor,

@@ -21,11 +21,13 @@ from phframe.core import (
 )
 from phframe.core.run_spec import PARTS
 from phframe.registry import Kind, create, identify, load, refuse_stored_code
+from phframe.runtime.aids import Aids
 from phframe.runtime.confirmation import Confirmation
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.noise import Noise
 from phframe.runtime.observer import Observer
+from phframe.runtime.particles import Particles
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.sensor import Sensor
@@ -58,9 +60,12 @@ def run(
         ready = prepare(spec)
         planning = stack.enter_context(PlanningWorld(ready.plan_world, spec.workers))
         execution = stack.enter_context(ExecutionWorld(ready.world))
-        believed = replace(ready.world, scene=ready.plan_world.scene)
+        shape = execution.arm.shape
+        sensor = Sensor(ready.noise, ready.scene, shape, spec.seed)
+        believed, particles = replace(ready.world, scene=ready.plan_world.scene), None
         confirmation = None if believed == ready.plan_world else stack.enter_context(Confirmation(believed))
-        sensor = Sensor(ready.noise, ready.scene, execution.arm.shape, spec.seed)
+        if ready.noise != Noise():
+            particles = stack.enter_context(Particles(ready.plan_world, ready.noise, shape, spec.seed))
         return run_episode(
             ready.planner,
             ready.topology,
@@ -70,8 +75,7 @@ def run(
             ready.spec,
             observers,
             sensor,
-            advisor,
-            confirmation,
+            Aids(advisor, confirmation, particles),
         )
 
 
