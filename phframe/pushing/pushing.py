@@ -19,10 +19,10 @@ from phframe.core import (
     rotation_matrix,
     yaw_of,
 )
-from phframe.geometry.arm_view import ArmView
+from phframe.geometry.arm_view import arm_view
 from phframe.pushing.corridor import Corridor, corridor_half_width, find_corridor, with_room
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.grasp import Grasp, grasp_action
+from phframe.pushing.grasp import Grasp, GraspFinder
 from phframe.pushing.grouping import closest_component, merged_labels
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
@@ -51,7 +51,8 @@ class Pushing:
         self.scene = task.goal.scene(task.scene) if isinstance(task.goal, Retrieve) else task.scene
         self.half_width = corridor_half_width(options.half_width, self.scene, task.arm)
         self._radii = self.scene.radii
-        self._view = ArmView(self.scene.shelf, task.arm.closed, options.wall_clearance)
+        self._view = arm_view(self.scene.shelf, task.arm, task.arm.min_opening, options.wall_clearance)
+        self._grasps = GraspFinder(self.scene, task.arm, options)
         obstacles = np.delete(self._radii, self.scene.target_index)
         self.threshold = usable_threshold(options.insertion_width, float(obstacles.max(initial=0.0)))
 
@@ -174,8 +175,7 @@ class Pushing:
 
     def grasp(self, problem: PushProblem) -> Grasp | Infeasible:
         """The reach, grasp and withdrawal along the corridor, if the target can be got at without what was rejected."""
-        task, corridor = self.task, problem.corridor
-        found = grasp_action(self.scene, problem.state, corridor, task.arm, self.options, task.rejects)
+        found = self._grasps.grasp(problem.state, problem.corridor, self.task.rejects)
         if isinstance(found, Infeasible):
             return found
         return replace(found, deviations=(*problem.deviations, *found.deviations))
