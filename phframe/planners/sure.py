@@ -46,7 +46,6 @@ from phframe.pushing import (
     harm,
     is_unchanged,
     rehearse,
-    swerve,
     target_pushes,
 )
 
@@ -189,7 +188,7 @@ class _LazySearch:
         if self._options.grasp == "empty-corridor" and found[0].blocking:
             return None
         free = [(drive, drive.grasp) for drive in found if isinstance(drive.grasp, Grasp)]
-        for drive, grasp in sorted(free, key=lambda each: (swerve(self._pushing, each[1]) > 0.0, each[0].blocking)):
+        for drive, grasp in sorted(free, key=lambda each: (not each[1].withdraws_between_walls, each[0].blocking)):
             if self._reach.refuses(drive):
                 continue
             end, outcome = self._search.try_grasp(node, grasp)

@@ -8,7 +8,7 @@ from phframe.pushing.confirmed import Confirmed
 from phframe.pushing.corridor import Corridor, corridor_at, corridor_half_width, find_corridor
 from phframe.pushing.cut_short import cut_short
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.fan import WIDE_FAN, Drive, drives, swerve
+from phframe.pushing.fan import WIDE_FAN, Drive, drives
 from phframe.pushing.grasp import Grasp, grasp_action
 from phframe.pushing.grouping import Rectangle, bounding_rectangle, closest_component
 from phframe.pushing.groups import Group, Grouping, Radii, closest_groups
@@ -83,7 +83,6 @@ __all__ = [
     "push_action",
     "rehearse",
     "straight_drive",
-    "swerve",
     "target_pushes",
     "usable_radii",
     "usable_threshold",

@@ -64,18 +64,10 @@ def drives(pushing: Pushing, state: State, fan: Sequence[float]) -> list[Drive] 
         known = any(abs(angle - corridor.angle) < SAME_ANGLE for corridor in corridors)
         if not known and math.cos(angle) > LEAST_AHEAD:
             corridors.append(corridor_at(angle, target, pushing.half_width))
-    return [_drive(pushing, state, corridor) for corridor in corridors]
+    grasps = pushing.grasps_along(state, corridors)
+    return [_drive(pushing, state, *each) for each in zip(corridors, grasps, strict=True)]
 
 
-def _drive(pushing: Pushing, state: State, corridor: Corridor) -> Drive:
-    grasp = pushing.grasp_along(state, corridor)
+def _drive(pushing: Pushing, state: State, corridor: Corridor, grasp: Grasp | Infeasible) -> Drive:
     blockers = grasp.blockers if isinstance(grasp, Infeasible) else ()
     return Drive(pushing.problem_along(state, corridor, blockers), grasp)
-
-
-def swerve(pushing: Pushing, grasp: Grasp) -> float:
-    """How far the target, drawn out by a grasp, sticks out past the line of a side wall (m); 0: it stays between them."""
-    scene = pushing.scene
-    radius, width = float(scene.radii[scene.target_index]), scene.shelf.width
-    last = float(grasp.action.path.poses[-1, 1])
-    return max(0.0, radius - last, last + radius - width)

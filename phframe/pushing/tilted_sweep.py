@@ -10,7 +10,7 @@ import numpy as np
 
 from phframe.core import MOUTH_CLEARANCE, FloatArray, rotation_matrix
 from phframe.geometry.arm_view import ArmView
-from phframe.geometry.straight_motion import distances_on_way_in
+from phframe.geometry.straight_motion import distances_on_way_in, swept_distances
 from phframe.pushing.corridor import Corridor
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.grouping import Rectangle
@@ -177,7 +177,10 @@ class TiltedSweep:
         """Whether the arm meets a member on its way across or in: no wall keeps it short of all, nor is its lane beyond them."""
         before, inserted, swept, _ = sweep.waypoints
         members, radius = self._component.centers, self._component.radius - ROUNDING
-        return any(self._arm.meets(members, radius, *way) for way in ((inserted, swept), (before, inserted)))
+        return any(
+            bool((swept_distances(self._arm.parts + a, b - a, members) < radius).any())
+            for a, b in ((inserted, swept), (before, inserted))
+        )
 
     def _depth_allowed(self, sweep: Sweep) -> float:
         """How deep the fingertip may go so that nowhere between lane and end it comes too near to the target."""
@@ -205,7 +208,7 @@ class TiltedSweep:
             return None
         across = np.array([-math.sin(angle), math.cos(angle)])
         far = self._shelf.depth + self._shelf.width
-        south, north = (self._walls.travel(start, way * across, far) - ROUNDING for way in (-1.0, 1.0))
+        south, north = (float(self._walls.travel(start, way * across, far)) - ROUNDING for way in (-1.0, 1.0))
         return axis - south, axis + north
 
     def _with_ways(self, depth: float, lane: float, end: float) -> Sweep | None:
