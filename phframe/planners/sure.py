@@ -13,10 +13,7 @@ from pydantic import Field
 
 from phframe.core import (
     ROOT,
-    Certainty,
-    Decision,
     Infeasible,
-    Particle,
     Plan,
     Planner,
     State,
@@ -40,12 +37,12 @@ from phframe.pushing import (
     PushSearch,
     Radii,
     ReachOfTarget,
+    Rehearsals,
     closest_groups,
     cut_short,
     drives,
     harm,
     is_unchanged,
-    rehearse,
     target_pushes,
 )
 
@@ -53,6 +50,8 @@ EACH_LEFT = 0.25
 """What each obstacle after the first that a push leaves in the way adds to the estimate (pushes)."""
 NEXT_BEST, TILTED, CUT, OF_TARGET = 0.05, 0.02, 0.6, 3.0
 """What a sweep that is not the best of its group, is tilted, is cut short or pushes the target adds to it (pushes)."""
+AMPLE = 0.01
+"""A grasp that keeps this clearance is as good as one that keeps more (m)."""
 ALIKE = 0.002
 """States whose objects stand less than about this far apart are one (m)."""
 
@@ -136,9 +135,9 @@ class _LazySearch:
         self._queue: list[tuple[float, int, _Candidate]] = []
         self._order = count()
         self._seen = {_alike(task.start)}
-        self._particles: tuple[Particle, ...] | None = None  # not drawn yet
-        self._rehearsed = 0
-        self._best: tuple[int, Certainty] | None = None
+        self._rehearsals = Rehearsals(
+            task, self._search, particles=options.particles, certain=options.certain, most=options.rehearsals
+        )
 
     def run(self) -> Plan:
         """Try what promises the fewest pushes until a grasp succeeds."""
@@ -153,7 +152,7 @@ class _LazySearch:
                 self._fit(candidate)
             else:
                 plan = self._push(estimate, candidate, candidate.push)
-        return plan or self._chosen() or self._failure()
+        return plan or self._rehearsals.surest() or self._failure()
 
     @property
     def _room(self) -> bool:
@@ -188,7 +187,7 @@ class _LazySearch:
         if self._options.grasp == "empty-corridor" and found[0].blocking:
             return None
         free = [(drive, drive.grasp) for drive in found if isinstance(drive.grasp, Grasp)]
-        for drive, grasp in sorted(free, key=lambda each: (not each[1].withdraws_between_walls, each[0].blocking)):
+        for drive, grasp in sorted(free, key=_hazard):
             if self._reach.refuses(drive):
                 continue
             end, outcome = self._search.try_grasp(node, grasp)
@@ -204,7 +203,7 @@ class _LazySearch:
         if self._confirmed is None:
             unreachable = self._task.reachable(grasp.action, self._search.state(node))
             if unreachable is None:
-                return self._plan(end)
+                return self._sure(end, grasp)
             self._beyond(node, end, unreachable.why)
             return None
         twin = self._confirmed.of(node)
@@ -214,7 +213,7 @@ class _LazySearch:
             return self._expand(twin)
         confirmed, why = self._confirmed.apply(node, grasp.action, self._tree[end].decision)
         if not why:
-            return self._plan(confirmed)
+            return self._sure(confirmed, grasp)
         motion = self._tree[confirmed].motion
         if motion is not None and motion.stopped is not None and motion.stopped.cause is StopCause.UNREACHABLE:
             self._beyond(node, end, why)
@@ -227,34 +226,9 @@ class _LazySearch:
         self._tree.close(end, why)
         self._reach.ask(self._search.state(node))
 
-    def _plan(self, end: int) -> Plan | None:
-        """The plan that ends with a clean grasp; None where samples of the world make it so unsure that others are looked at."""
-        if self._particles is None:
-            self._particles = self._task.particles(self._options.particles)
-        actions = [node.action for node in self._tree.path(end) if node.action is not None]
-        certainty = rehearse(self._search, actions, self._particles, None)
-        self._rehearsed += 1
-        if self._best is None or (certainty.share or 0.0) > (self._best[1].share or 0.0):
-            self._best = end, certainty
-            self._task.offer(self._told(end, certainty))
-        if not certainty.samples or self._rehearsed >= self._options.rehearsals:
-            return self._chosen()
-        if certainty.clean >= self._options.certain * certainty.samples:
-            return self._chosen()
-        self._tree.close(end, f"clean in {certainty.clean} of {certainty.samples} samples of the world")
-        return None
-
-    def _chosen(self) -> Plan | None:
-        """The surest of the plans that were rehearsed."""
-        if self._best is None:
-            return None
-        end, certainty = self._best
-        self._tree.reopen(end, self._tree[end].decision or Decision())
-        self._tree.close_others(end, "another path leads to a surer clean grasp, or did first")
-        return self._told(end, certainty)
-
-    def _told(self, end: int, certainty: Certainty) -> Plan:
-        return replace(self._tree.plan(end, Status.RETRIEVED), certainty=certainty)
+    def _sure(self, end: int, grasp: Grasp) -> Plan | None:
+        """The plan that ends with a grasp; None where samples of the world make it so unsure that others are looked at."""
+        return self._rehearsals.surest() if self._rehearsals.rehearse(end, grasp.clearance) else None
 
     def _fit(self, candidate: _Candidate) -> None:
         """Queue the sweeps that fit."""
@@ -312,6 +286,12 @@ class _LazySearch:
 
     def _add(self, estimate: float, candidate: _Candidate) -> None:
         heapq.heappush(self._queue, (estimate, next(self._order), candidate))
+
+
+def _hazard(free: tuple[Drive, Grasp]) -> tuple[bool, float, int]:
+    """What makes one grasp worse than another: its way out leads past a wall, little room, obstacles in the corridor."""
+    drive, grasp = free
+    return not grasp.withdraws_between_walls, -round(min(grasp.clearance, AMPLE), 3), drive.blocking
 
 
 def _cost(decision: PushDecision, left: int) -> float:

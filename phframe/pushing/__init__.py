@@ -22,7 +22,7 @@ from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, by_direction, is_unchanged
 from phframe.pushing.pushing import Pushing
 from phframe.pushing.reach_of_target import ReachOfTarget
-from phframe.pushing.rehearsal import rehearse
+from phframe.pushing.rehearsal import Rehearsals, rehearsed
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
 from phframe.pushing.straight_drive import StraightDrive, first_blocker, straight_drive
 from phframe.pushing.straight_push import StraightPusher, StraightPushOptions
@@ -57,6 +57,7 @@ __all__ = [
     "Radii",
     "ReachOfTarget",
     "Rectangle",
+    "Rehearsals",
     "Retrieve",
     "RetrieveOptions",
     "StraightDrive",
@@ -81,7 +82,7 @@ __all__ = [
     "is_unchanged",
     "persistent_radii",
     "push_action",
-    "rehearse",
+    "rehearsed",
     "straight_drive",
     "target_pushes",
     "usable_radii",
