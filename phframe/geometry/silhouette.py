@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from phframe.core import FloatArray
-from phframe.geometry.parts import Angles, edges_of, turned
+from phframe.geometry.parts import Angles, edges_of, turned, turns
 
 
 class Silhouette:
@@ -21,14 +21,15 @@ class Silhouette:
         tilts: Against the corridor.
 
     Attributes:
-        parts: The same, tilted: ``(..., m, v, 2)``.
+        turns: ``(..., 2, 2)`` from the fingertip frame to the one that it is tilted against.
+        parts: The parts, tilted: ``(..., m, v, 2)``.
         front: ``(...)`` how far the foremost point is ahead of the fingertip (m).
         lowest: ``(...)`` least y of all points (m).
         highest: ``(...)`` greatest y of all points (m).
     """
 
     def __init__(self, parts: FloatArray, tilts: Angles) -> None:
-        self.parts = turned(parts, tilts)
+        self.turns, self.parts = turns(tilts), turned(parts, tilts)
         flat = (*self.parts.shape[:-3], -1)
         self._x, self._y = (self.parts[..., axis].reshape(flat) for axis in (0, 1))
         runs, rises = (edges_of(self.parts)[..., axis].reshape(flat) for axis in (0, 1))
@@ -63,6 +64,12 @@ class Silhouette:
         between = np.where((self._x > least) & (self._x < most), corners, -np.inf).max(axis=-1)
         at_ends = self.side(np.concatenate([least, most], axis=-1), direction).max(axis=-1)
         return np.asarray(np.maximum(at_ends, between))
+
+    @cached_property
+    def tip_sides(self) -> tuple[FloatArray, FloatArray]:
+        """How far it reaches to the north, and to the south, at the depth of the fingertip ``(...)`` (m)."""
+        north, south = (self.side(np.zeros(1), direction)[..., 0] for direction in (1, -1))
+        return north, south
 
     @cached_property
     def _corner_sides(self) -> tuple[FloatArray, FloatArray]:

@@ -6,7 +6,7 @@ This is the public list: what planners, phframe's own and those of plugins, are 
 from phframe.pushing.clearing import ChooseRadius, Clearing
 from phframe.pushing.corridor import Corridor, corridor_half_width, find_corridor
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.grasp import Grasp, grasp_action
+from phframe.pushing.grasp import Grasp, GraspFinder, grasp_action
 from phframe.pushing.grouping import Rectangle, bounding_rectangle, closest_component
 from phframe.pushing.grtc import GrtcDeviation, GrtcSearch, Obstruction, StraightPushDecision
 from phframe.pushing.options import ClearingOptions, PushingOptions
@@ -20,6 +20,7 @@ from phframe.pushing.straight_drive import StraightDrive, first_blocker, straigh
 from phframe.pushing.straight_push import StraightPusher, StraightPushOptions
 from phframe.pushing.sweep import Sweep, push_action
 from phframe.pushing.sweep_generator import SweepGenerator
+from phframe.pushing.tilted_sweep import Push
 
 __all__ = [
     "UNCHANGED",
@@ -29,10 +30,12 @@ __all__ = [
     "Corridor",
     "Deviation",
     "Grasp",
+    "GraspFinder",
     "GrtcDeviation",
     "GrtcSearch",
     "Obstruction",
     "Proposal",
+    "Push",
     "PushDecision",
     "PushProblem",
     "PushSearch",
