@@ -83,7 +83,8 @@ class SweepGenerator:
         aside = np.array([0.0, 0.0, -step, step, *[0.0] * len(turned)]) * sweep.direction
         sweeps = self._sweeps([*[ways[place]] * 4, *turned])
         found = sweeps.at(sweep.depth + deeper, sweep.lane + aside)
-        return sorted(filter(None, found), key=lambda each: not each.clears)
+        others = {each.sweep: each for each in found if each is not None and each.sweep != sweep}
+        return sorted(others.values(), key=lambda each: not each.clears)
 
     def _best(self) -> Iterator[Push]:
         """The sweeps that fit.
