@@ -85,31 +85,33 @@ class _Sweeps(NamedTuple):
     """Sweeps in numbers, one for each way ``(b,)``; see ``Sweep``.
 
     Attributes:
-        sides: How far the leading side is ahead of the fingertip at the depth of each member ``(b, k)`` (m).
-        lane_clamped: Whether a wall keeps the lane from where it should be ``(b,)``.
-        end_clamped: The same of the end.
+        depth: Of the fingertip ``(b,)`` (m).
+        ends: The lane, and where the sweep ends ``(2, b)`` (m).
+        lengths: Of the ways in, and out ``(2, b)`` (m).
+        sides: How far the leading side is ahead of the fingertip at the depth of each member ``(k, b)`` (m).
+        clamped: Whether a wall keeps the lane, and the end, from where they should be ``(2, b)``.
         fits: Whether there is a sweep at all ``(b,)``.
     """
 
     depth: FloatArray
-    lane: FloatArray
-    end: FloatArray
-    entry: FloatArray
-    exit: FloatArray
+    ends: FloatArray
+    lengths: FloatArray
     sides: FloatArray
-    lane_clamped: NDArray[np.bool_]
-    end_clamped: NDArray[np.bool_]
+    clamped: NDArray[np.bool_]
     fits: NDArray[np.bool_]
 
     def where(self, mask: NDArray[np.bool_], others: _Sweeps) -> _Sweeps:
         """Those of a mask ``(b,)``, and others in place of the rest."""
-        masks = (mask[:, None] if mine.ndim > 1 else mask for mine in self)
-        return _Sweeps(*(np.where(*each) for each in zip(masks, self, others, strict=True)))
+        return _Sweeps(*(np.where(mask, mine, other) for mine, other in zip(self, others, strict=True)))
+
+    def among(self, mask: NDArray[np.bool_]) -> _Sweeps:
+        """The same, of which none fits but those of a mask ``(b,)`` that did."""
+        return self._replace(fits=self.fits & mask)
 
     @property
     def tips(self) -> FloatArray:
         """The fingertip inserted, and swept ``(2, b, 2)``, in the corridor frame (m)."""
-        return np.stack([_points(self.depth, y) for y in (self.lane, self.end)])
+        return _points(self.depth, self.ends)
 
 
 class TiltedSweeps:
@@ -168,30 +170,29 @@ class TiltedSweeps:
             shifted &= ~(nearer.fits & self._touches(nearer))
         if shifted.any():
             past = self._at(far, self._lane_past_target())
-            past = past._replace(fits=past.fits & (self._depth_allowed(past) >= far))
-            sweeps = past.where(shifted, sweeps)
+            sweeps = past.among(self._depth_allowed(past) >= far).where(shifted, sweeps)
         return self._pushes(self._meeting(sweeps), shifted)
 
     def at(self, depth: FloatArray, lane: FloatArray) -> list[Push | None]:
         """The sweeps at depths and in lanes ``(b,)`` of the corridor frame (m), as far as walls allow; None as in ``fitted``."""
         sweeps = self._at(depth, lane)
-        return self._pushes(self._meeting(sweeps._replace(fits=sweeps.fits & (self._depth_allowed(sweeps) >= depth))))
+        return self._pushes(self._meeting(sweeps.among(self._depth_allowed(sweeps) >= depth)))
 
-    def _at(self, depth: FloatArray, wanted: FloatArray) -> _Sweeps:
-        """The sweeps at depths, in the lanes that are wanted ``(b,)``, clamped to the walls."""
+    def _at(self, depth: FloatArray, lane: FloatArray) -> _Sweeps:
+        """The sweeps at depths, in lanes ``(b,)``, clamped to the walls."""
         least, most = self._limits(depth)
-        sides = self._arm.side(self._component.centers[:, 0] - depth[:, None], self._direction)
-        wish = self._end(sides)
-        lane, end = (np.minimum(np.maximum(y, least), most) for y in (wanted, wish))
-        end = self._direction * np.minimum(self._direction * end, (self._room - sides).min(axis=1))
-        (entry, leave), out = self._ways_out(depth, lane, end)
-        fits = out & ((end - lane) * self._direction >= SHORTEST_SWEEP)
-        return _Sweeps(depth, lane, end, entry, leave, sides, lane != wanted, end != wish, fits)
+        sides = self._arm.side(self._component.centers[:, :1] - depth, self._direction)
+        wanted = np.array([lane, self._end(sides)])
+        ends = np.minimum(np.maximum(wanted, least), most)
+        ends[1] = self._direction * np.minimum(self._direction * ends[1], (self._room - sides).min(axis=0))
+        lengths, out = self._ways_out(depth, ends)
+        fits = out & ((ends[1] - ends[0]) * self._direction >= SHORTEST_SWEEP)
+        return _Sweeps(depth, ends, lengths, sides, ends != wanted, fits)
 
     def _limits(self, depth: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Least and greatest y of the fingertip at a depth (m); where the arm does not fit there is nothing between them."""
         axis, angle = self._corridor.axis, self._corridor.angle
-        start = self._in_shelf_frame(_points(depth, axis))
+        start = self._in_shelf_frame(_points(depth, np.full_like(depth, axis)))
         across = np.array([-math.sin(angle), math.cos(angle)])
         north, south = self._walls.room(start, across, self._shelf.depth + self._shelf.width)
         return axis - (south - ROUNDING), axis + (north - ROUNDING)
@@ -216,20 +217,20 @@ class TiltedSweeps:
     def _end(self, sides: FloatArray) -> FloatArray:
         """Where the leading side has reached the corridor's edge at the depth of every member."""
         edge = self._corridor.half_width + EDGE_SURPLUS
-        return np.asarray(self._corridor.axis + self._direction * (edge - sides.min(axis=1)))
+        return np.asarray(self._corridor.axis + self._direction * (edge - sides.min(axis=0)))
 
     def _room_at_walls(self) -> FloatArray:
-        """How far the leading side can sweep at each member's depth before that meets a wall ``(b, k)`` (m)."""
-        radius, way = self._component.radius, self._direction[:, None]
+        """How far the leading side can sweep at each member's depth before that meets a wall ``(k, b)`` (m)."""
+        radius, way = self._component.radius, self._direction
         walls = np.where(way * self._cos > 0.0, self._shelf.width - radius, radius)
-        return np.asarray(way * (walls - self._members_y) / self._cos - radius)
+        return np.asarray(way * (walls - self._members_y[:, None]) / self._cos - radius)
 
-    def _ways_out(self, depth: FloatArray, lane: FloatArray, end: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _ways_out(self, depth: FloatArray, ends: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Lengths ``(2, b)`` of the straight ways in and out (m), and whether no wall is in either of them.
 
         They begin and end where the whole arm is before the mouth.
         """
-        tips = self._in_shelf_frame(np.stack([_points(depth, y) for y in (lane, end)]))
+        tips = self._in_shelf_frame(_points(depth, ends))
         lengths = (tips[..., 0] + self._in_shelf.front + MOUTH_CLEARANCE) / self._walls.ahead[:, 0]
         return lengths, np.asarray(self._walls.lets_out(tips, lengths).all(axis=0))
 
@@ -245,28 +246,27 @@ class TiltedSweeps:
         side; of the rest the distances from all that they sweep over are taken.
         """
         fits = sweeps.fits & self._touches(sweeps)
-        centers, way = self._component.centers, self._direction[:, None]
-        beside = way * centers[:, 1] - sweeps.sides
-        passed = (way * sweeps.lane[:, None] <= beside) & (beside <= way * sweeps.end[:, None])
-        passed &= centers[:, 0] <= (sweeps.depth + self._arm.front)[:, None]
-        rows = np.flatnonzero(fits & ~passed.any(axis=1))
+        x, y = self._component.centers.T[..., None]
+        begin, end = self._direction * sweeps.ends
+        beside = self._direction * y - sweeps.sides
+        passed = (begin <= beside) & (beside <= end) & (x <= sweeps.depth + self._arm.front)
+        rows = np.flatnonzero(fits & ~passed.any(axis=0))
         if len(rows):
-            distances = self._swept(sweeps, rows, centers)[:, :2]
+            distances = self._swept(sweeps, rows, self._component.centers)
             fits[rows] = (distances < self._component.radius - ROUNDING).any(axis=(0, 1))
         return sweeps._replace(fits=fits)
 
     def _swept(self, sweeps: _Sweeps, rows: IntArray, points: FloatArray) -> FloatArray:
-        """Distances ``(n, 3, r)`` of points ``(n, 2)`` from what the arm sweeps over on its ways in, across and out (m)."""
+        """Distances ``(n, 2, r)`` of points ``(n, 2)`` from what the arm sweeps over on its ways in and across (m)."""
         inserted, swept = sweeps.tips[:, rows]
-        ahead = self._arm.turns[rows, :, 0]
-        before, after = inserted - sweeps.entry[rows, None] * ahead, swept - sweeps.exit[rows, None] * ahead
-        begin, end = np.stack([before, inserted, swept]), np.stack([inserted, swept, after])
-        return swept_distances(self._arm.parts[rows] + begin[:, :, None, None], end - begin, points)
+        before = inserted - sweeps.lengths[0, rows, None] * self._arm.turns[rows, :, 0]
+        parts = self._arm.parts[rows] + np.array([before, inserted])[:, :, None, None]
+        return swept_distances(parts, np.array([inserted - before, swept - inserted]), points)
 
     def _depth_allowed(self, sweeps: _Sweeps) -> FloatArray:
         """How deep the fingertips may go so that nowhere between lane and end they come too near to the target ``(b,)`` (m)."""
         (north, south), axis = self._arm.tip_sides, self._corridor.axis
-        low, high = np.minimum(sweeps.lane, sweeps.end) - south, np.maximum(sweeps.lane, sweeps.end) + north
+        low, high = sweeps.ends.min(axis=0) - south, sweeps.ends.max(axis=0) + north
         beside = np.maximum(np.maximum(low - axis, axis - high), 0.0)
         return np.minimum(sweeps.depth, [self._depth_beside(each) for each in beside.tolist()])
 
@@ -278,39 +278,37 @@ class TiltedSweeps:
 
     def _pushes(self, sweeps: _Sweeps, shifted: NDArray[np.bool_] | None = None) -> list[Push | None]:
         """What fits, as pushes, with what they do; ``shifted``: those in a lane past the target."""
-        rows = np.flatnonzero(sweeps.fits)
+        numbers = np.concatenate([sweeps.depth[None], sweeps.ends, sweeps.lengths])[:, sweeps.fits].T.tolist()
+        clears, rams = self._clears(sweeps).tolist(), self._rams(sweeps).tolist()
         pushes: list[Push | None] = [None] * len(self._ways)
-        if not len(rows):
-            return pushes
-        numbers = (each[rows].tolist() for each in (sweeps.depth, sweeps.lane, sweeps.end, sweeps.entry, sweeps.exit))
-        does = self._clears(sweeps, rows).tolist(), self._rams(sweeps, rows).tolist()
-        for row, depth, lane, end, entry, leave, clears, rams in zip(rows.tolist(), *numbers, *does, strict=True):
+        for row, (depth, lane, end, entry, leave) in zip(np.flatnonzero(sweeps.fits).tolist(), numbers, strict=True):
             way = self._ways[row]
             sweep = Sweep(way.direction, depth, lane, end, entry, leave, way.tilt)
-            pushes[row] = Push(sweep, (*way.deviations, *self._deviations(sweeps, shifted, row)), clears, rams)
+            deviations = (*way.deviations, *self._deviations(sweeps, shifted, row))
+            pushes[row] = Push(sweep, deviations, clears[row], rams[row])
         return pushes
 
     def _deviations(self, sweeps: _Sweeps, shifted: NDArray[np.bool_] | None, row: int) -> Iterator[Deviation]:
         if shifted is not None and shifted[row]:
             yield Deviation.LANE_SHIFTED
-        if sweeps.lane_clamped[row]:
+        if sweeps.clamped[0, row]:
             yield Deviation.LANE_CLAMPED
-        if sweeps.end_clamped[row]:
+        if sweeps.clamped[1, row]:
             yield Deviation.SWEEP_CLAMPED
 
-    def _clears(self, sweeps: _Sweeps, rows: IntArray) -> NDArray[np.bool_]:
+    def _clears(self, sweeps: _Sweeps) -> NDArray[np.bool_]:
         """Whether every member, pushed to one radius ahead of the leading side, is outside and has room there."""
-        radius, way, corridor = self._component.radius, self._direction[rows, None], self._corridor
-        pushed = sweeps.end[rows, None] + way * (sweeps.sides[rows] + radius)
+        radius, way, corridor = self._component.radius, self._direction, self._corridor
+        pushed = sweeps.ends[1] + way * (sweeps.sides + radius)
         outside = (pushed - corridor.axis) * way > corridor.half_width
-        across = self._members_y + self._cos * pushed
+        across = self._members_y[:, None] + self._cos * pushed
         room = (across >= radius - ROUNDING) & (across <= self._shelf.width - radius + ROUNDING)
-        return np.asarray((outside & room).all(axis=1))
+        return np.asarray((outside & room).all(axis=0))
 
-    def _rams(self, sweeps: _Sweeps, rows: IntArray) -> NDArray[np.bool_]:
+    def _rams(self, sweeps: _Sweeps) -> NDArray[np.bool_]:
         """Whether the straight way in leads through the middle of a member, which then goes deeper, not aside."""
-        local = (self._component.centers - sweeps.tips[0, rows, None]) @ self._arm.turns[rows]
-        distances = distances_on_way_in(local, *self._boxes, sweeps.entry[rows])
+        local = (self._component.centers - sweeps.tips[0, :, None]) @ self._arm.turns
+        distances = distances_on_way_in(local, *self._boxes, sweeps.lengths[0])
         return np.asarray((distances < HEAD_ON * self._component.radius).any(axis=(1, 2)))
 
     def clearance(self, push: Push) -> float:
@@ -336,8 +334,8 @@ class TiltedSweeps:
         return float(min(*walls, target - self._target_radius, *mouth))
 
 
-def _points(depth: FloatArray, y: FloatArray | float) -> FloatArray:
-    """Points ``(b, 2)`` of the corridor frame at depths ``(b,)`` (m)."""
-    points = np.empty((len(depth), 2))
-    points[:, 0], points[:, 1] = depth, y
+def _points(depth: FloatArray, y: FloatArray) -> FloatArray:
+    """Points ``(..., b, 2)`` of the corridor frame at depths ``(b,)`` and y ``(..., b)`` (m)."""
+    points = np.empty((*y.shape, 2))
+    points[..., 0], points[..., 1] = depth, y
     return points

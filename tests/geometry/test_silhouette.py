@@ -79,13 +79,13 @@ def test_several_tilts_at_once_are_as_each_by_itself(
     parts = stacked(outlines)
     many = Silhouette(parts, tuple(tilt for tilt, *_ in ways))
     directions, nearest = np.array([way for _, way, _ in ways]), np.array([depth for *_, depth in ways])
-    sides = many.side(np.array(depths) + nearest[:, None], directions)
+    sides = many.side(np.array(depths)[:, None] + nearest, directions)
     widest = many.widest_side(nearest, nearest + 0.1, directions)
     for row, (tilt, direction, depth) in enumerate(ways):
         one = Silhouette(parts, tilt)
         assert many.front[row] == one.front
         assert (many.lowest[row], many.highest[row]) == (one.lowest, one.highest)
-        np.testing.assert_array_equal(sides[row], one.side(np.array(depths) + depth, direction))
+        np.testing.assert_array_equal(sides[:, row], one.side(np.array(depths) + depth, direction))
         assert widest[row] == one.widest_side(depth, depth + 0.1, direction)
         at_tip = {1: one.tip_sides[0], -1: one.tip_sides[1]}[direction]
         assert at_tip == one.side(np.zeros(1), direction)[0]
