@@ -14,6 +14,7 @@ from pydantic import Field
 from phframe.core import (
     ROOT,
     Infeasible,
+    Motion,
     Plan,
     Planner,
     State,
@@ -135,6 +136,7 @@ class _LazySearch:
         self._queue: list[tuple[float, int, _Candidate]] = []
         self._order = count()
         self._seen = {_alike(task.start)}
+        self._replaced: set[int] = set()  # nodes from whose twins the search goes on in their place
         self._rehearsals = Rehearsals(
             task, self._search, particles=options.particles, certain=options.certain, most=options.rehearsals
         )
@@ -161,7 +163,15 @@ class _LazySearch:
     def _failure(self) -> Plan:
         if self._reach.never:
             return self._search.fail(ROOT, self._reach.never)
+        if self._room and len(self._tree) == 1 and not self._tree[ROOT].closed:
+            return self._search.fail(ROOT, f"nothing that can be pushed helps: {self._obstruction()}")
         return self._search.exhausted(self._tree.deepest, "" if self._room else f"max_nodes={self._options.max_nodes}")
+
+    def _obstruction(self) -> str:
+        """What keeps the arm from the target at the start, on the first drive."""
+        found = drives(self._pushing, self._task.start, self._fan)
+        first = found[0].grasp if isinstance(found, list) and found else self._pushing.problem(self._task.start)
+        return first.reason if isinstance(first, Infeasible) else "the corridor is not empty"
 
     def _expand(self, node: int) -> Plan | None:
         """Grasp from a node if that can be done; else queue what can be pushed there."""
@@ -169,7 +179,7 @@ class _LazySearch:
         if isinstance(found, Infeasible):
             self._tree.close(node, found.reason)
             return None
-        if (plan := self._grasp(node, found)) is not None:
+        if (plan := self._grasp(node, found)) is not None or self._is_over(node):
             return plan
         depth = self._tree.depth(node)
         if depth >= self._options.max_actions:
@@ -184,19 +194,23 @@ class _LazySearch:
 
     def _grasp(self, node: int, found: list[Drive]) -> Plan | None:
         """The plan that ends with a clean grasp from a node; a way out that stays between the walls comes first."""
-        if self._options.grasp == "empty-corridor" and found[0].blocking:
+        if self._options.grasp == "empty-corridor" and any(drive.blocking for drive in found[:1]):
             return None
         free = [(drive, drive.grasp) for drive in found if isinstance(drive.grasp, Grasp)]
-        for drive, grasp in sorted(free, key=_hazard):
-            if self._reach.refuses(drive):
+        for drive, grasp in _distinct(sorted(free, key=_hazard)):
+            if self._is_over(node) or self._reach.refuses(drive):
                 continue
             end, outcome = self._search.try_grasp(node, grasp)
             why = outcome.reason or harm(self._pushing.scene, self._search.state(node), self._made(end), None)
             if why and not (outcome.status is Status.RETRIEVED and self._options.harmful == "allowed"):
-                self._tree.close(end, why)
+                self._give_up(node, end, self._tree[end].motion, why)
             elif (plan := self._carried_out(node, end, grasp)) is not None:
                 return plan
         return None
+
+    def _is_over(self, node: int) -> bool:
+        """Whether nothing is to be tried from a node any more: it does not come true, or not quite as it is."""
+        return node in self._replaced or (self._confirmed is not None and self._confirmed.refutes(node))
 
     def _carried_out(self, node: int, end: int, grasp: Grasp) -> Plan | None:
         """The plan that ends with a grasp from a node, if it comes true in the engine and by the arm that execute."""
@@ -204,27 +218,27 @@ class _LazySearch:
             unreachable = self._task.reachable(grasp.action, self._search.state(node))
             if unreachable is None:
                 return self._sure(end, grasp)
-            self._beyond(node, end, unreachable.why)
+            self._tree.close(end, unreachable.why)
+            self._reach.ask(self._search.state(node))
             return None
         twin = self._confirmed.of(node)
         if twin is None:
             return None
         if twin != node:  # the world is a little different there: look anew
+            self._replaced.add(node)
+            self._tree.close(node, "looked at anew as the engine that executes makes it")
             return self._expand(twin)
         confirmed, why = self._confirmed.apply(node, grasp.action, self._tree[end].decision)
         if not why:
             return self._sure(confirmed, grasp)
-        motion = self._tree[confirmed].motion
-        if motion is not None and motion.stopped is not None and motion.stopped.cause is StopCause.UNREACHABLE:
-            self._beyond(node, end, why)
-        else:
-            self._tree.close(end, f"when confirmed: {why}")
+        self._give_up(node, end, self._tree[confirmed].motion, f"when confirmed: {why}")
         return None
 
-    def _beyond(self, node: int, end: int, why: str) -> None:
-        """Note that the arm cannot follow a grasp from a node."""
+    def _give_up(self, node: int, end: int, motion: Motion | None, why: str) -> None:
+        """Close a grasp from a node; where the arm cannot follow it, look at which angles it could."""
         self._tree.close(end, why)
-        self._reach.ask(self._search.state(node))
+        if motion is not None and motion.stopped is not None and motion.stopped.cause is StopCause.UNREACHABLE:
+            self._reach.ask(self._search.state(node))
 
     def _sure(self, end: int, grasp: Grasp) -> Plan | None:
         """The plan that ends with a grasp; None where samples of the world make it so unsure that others are looked at."""
@@ -261,8 +275,8 @@ class _LazySearch:
         node = self._tree.child(parent, action, made, decision)
         if why := self._dead_end(before, made, candidate):
             self._tree.close(node, why)
-            shorter = cut_short(push, made.motion, self._options) if made.motion.stalled else None
-            if shorter is not None:
+            shorter = cut_short(push, made, self._options) if made.motion.stalled else None
+            if shorter is not None and self._task.rejects(shorter[1]) is None:
                 self._add(estimate + CUT, replace(candidate, push=shorter))
             return None
         self._seen.add(_alike(made.state))
@@ -292,6 +306,14 @@ def _hazard(free: tuple[Drive, Grasp]) -> tuple[bool, float, int]:
     """What makes one grasp worse than another: its way out leads past a wall, little room, obstacles in the corridor."""
     drive, grasp = free
     return not grasp.withdraws_between_walls, -round(min(grasp.clearance, AMPLE), 3), drive.blocking
+
+
+def _distinct(free: list[tuple[Drive, Grasp]]) -> list[tuple[Drive, Grasp]]:
+    """Without the grasps that, turned against their drive, are the same as one before along another drive."""
+    found: dict[bytes, tuple[Drive, Grasp]] = {}
+    for drive, grasp in free:
+        found.setdefault(grasp.action.path.poses.tobytes(), (drive, grasp))
+    return list(found.values())
 
 
 def _cost(decision: PushDecision, left: int) -> float:

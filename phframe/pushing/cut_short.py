@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
-from phframe.core import Motion, time_path
+from phframe.core import FloatArray, Transition
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.push_search import Proposal
@@ -14,18 +15,24 @@ SHORT_OF_STALL = 0.01
 """How far before the place where it stalls a push ends (m)."""
 
 
-def cut_short(push: Proposal, stalled: Motion, options: PushingOptions) -> Proposal | None:
-    """The push that ends, or no longer goes in, a little before it stalls; None where that would move nothing.
+def cut_short(push: Proposal, stalled: Transition, options: PushingOptions) -> Proposal | None:
+    """The sweep that ends a little before it stalls on its way across.
+
+    From a stall the arm draws straight back along its axis (``PlanningWorld.apply``), so that where it stands then tells how
+    far across it was, whatever engine drove it, from wherever it approached.
 
     Args:
         push: What was simulated.
         stalled: What it came to.
         options: The planner's.
+
+    Returns:
+        None where it stalls on its way in, or so early that hardly anything would move.
     """
     decision, action = push
-    if decision.sweep is None or decision.corridor is None:
+    if decision.sweep is None or decision.corridor is None or stalled.state.arm is None:
         return None
-    sweep = _shorter(decision.sweep, _driven(push, stalled))
+    sweep = _shorter(decision.sweep, decision.corridor.to_local(stalled.state.arm.gripper[:2]))
     if sweep is None:
         return None
     closed = action.path.rule(0).opening
@@ -34,31 +41,18 @@ def cut_short(push: Proposal, stalled: Motion, options: PushingOptions) -> Propo
     return replace(decision, sweep=sweep, deviations=tuple(deviations)), shorter
 
 
-def _driven(push: Proposal, stalled: Motion) -> tuple[float, float]:
-    """How much was driven of the way in and of the way across, as fractions."""
-    path = push[1].path
-    _, inserted, swept, _ = time_path(path, path.rule(0).opening, 1.0).times.tolist()
-    across = (stalled.followed - inserted) / (swept - inserted)
-    return min(stalled.followed / inserted, 1.0), min(max(across, 0.0), 1.0)
+def _shorter(sweep: Sweep, drawn_back: FloatArray) -> Sweep | None:
+    """The way out from anywhere on the way across is as long as its place between lane and end says.
 
-
-def _shorter(sweep: Sweep, driven: tuple[float, float]) -> Sweep | None:
-    """The way out from anywhere on the way across is as long as its place between lane and end says."""
-    inserted, across = driven
-    if inserted < 1.0:
-        entry = inserted * sweep.entry - SHORT_OF_STALL
-        tip = sweep.waypoints[0] + (sweep.waypoints[1] - sweep.waypoints[0]) * (entry / sweep.entry)
-        moved = float(tip[1]) - sweep.lane
-        out = sweep.exit - (sweep.entry - entry)
-        return (
-            replace(sweep, depth=float(tip[0]), lane=float(tip[1]), end=sweep.end + moved, entry=entry, exit=out)
-            if entry > 0.0 and out > 0.0
-            else None
-        )
-    width = abs(sweep.end - sweep.lane)
-    kept = across * width - SHORT_OF_STALL
+    Args:
+        sweep: The one that stalls.
+        drawn_back: Where the fingertip stands ``(2,)`` after it drew back, in the corridor frame (m).
+    """
+    x, y = drawn_back.tolist()
+    stalled = y + (sweep.depth - x) * math.tan(sweep.tilt)
+    kept = sweep.direction * (stalled - sweep.lane) - SHORT_OF_STALL
     if kept < SHORT_OF_STALL:
         return None
-    fraction = kept / width
+    fraction = kept / abs(sweep.end - sweep.lane)
     end = sweep.lane + sweep.direction * kept
     return replace(sweep, end=end, exit=sweep.entry + fraction * (sweep.exit - sweep.entry))

@@ -12,6 +12,7 @@ from phframe.pushing.corridor import Corridor, corridor_at
 from phframe.pushing.grasp import Grasp
 from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.pushing import Pushing
+from phframe.pushing.retrieve import Retrieve
 
 WIDE_FAN = tuple(math.radians(degrees) for degrees in (0, 15, -15, 30, -30, 45, -45))
 """Angles in the shelf frame, positive towards the north (rad)."""
@@ -54,9 +55,12 @@ def drives(pushing: Pushing, state: State, fan: Sequence[float]) -> list[Drive] 
         pushing: The geometry of the task.
         state: The world at rest.
         fan: Angles in the shelf frame (rad).
+
+    Returns:
+        None at all where the paper has no corridor and the fan no angle; why, where the target cannot be retrieved by any.
     """
     problem = pushing.problem(state)
-    if isinstance(problem, Infeasible) and state.conditions[pushing.scene.target_index] is not Condition.UPRIGHT:
+    if isinstance(problem, Infeasible) and not _is_retrievable(pushing, state):
         return problem
     corridors = [] if isinstance(problem, Infeasible) else [problem.corridor]
     target = state.positions[pushing.scene.target_index]
@@ -66,6 +70,12 @@ def drives(pushing: Pushing, state: State, fan: Sequence[float]) -> list[Drive] 
             corridors.append(corridor_at(angle, target, pushing.half_width))
     grasps = pushing.grasps_along(state, corridors)
     return [_drive(pushing, state, *each) for each in zip(corridors, grasps, strict=True)]
+
+
+def _is_retrievable(pushing: Pushing, state: State) -> bool:
+    """Whether the target is to be retrieved, and stands."""
+    upright = state.conditions[pushing.scene.target_index] is Condition.UPRIGHT
+    return upright and isinstance(pushing.task.goal, Retrieve)
 
 
 def _drive(pushing: Pushing, state: State, corridor: Corridor, grasp: Grasp | Infeasible) -> Drive:
