@@ -8,8 +8,10 @@ from collections import deque
 import numpy as np
 
 from phframe.backends.contract import START_ANGLE, START_POSITION, first_contacts, force_reason, touch_reason
+from phframe.backends.pymunk_ import chipmunk
 from phframe.backends.pymunk_.braking import Pace, pace
 from phframe.backends.pymunk_.fast_forward import free_fraction, is_still, stays_outside
+from phframe.backends.pymunk_.floors import Lookout
 from phframe.backends.pymunk_.gripper import (
     between_fingers,
     drag,
@@ -79,6 +81,7 @@ class PymunkDrive:
         self._lag = self._force = 0.0
         self._stalled, self._settled = False, True
         self._cause: StopReason | None = None
+        self._lookout = Lookout(world, step)
 
     def run(self, settle: Settle | None) -> Motion:
         """Follow the trajectory, then wait for rest."""
@@ -103,7 +106,8 @@ class PymunkDrive:
         world, trajectory = self._world, self._trajectory
         world.tick = 0
         world.touched.clear()
-        world.arm.drive.max_force = trajectory.force_limit
+        world.begun.clear()
+        chipmunk.set_max_force(world.arm.drive, trajectory.force_limit)
         if world.parked:
             place_arm(world, trajectory.poses[0])
             set_opening(world, float(trajectory.openings[0]))
@@ -113,7 +117,9 @@ class PymunkDrive:
     def _follow(self, leg: int) -> None:
         """Drive the carrier along a leg, fast-forwarding over what is free while all is still."""
         world, trajectory, end = self._world, self._trajectory, self._ticks[leg + 1]
-        world.arm.body.each_arbiter(note_contact, world.space, world)
+        for part, other, _ in world.space.contacts():
+            note_contact(world, part, other)
+        self._lookout.expect(self._top_speed(leg, end - world.tick))
         if trajectory.openings[leg] != trajectory.openings[leg + 1]:
             self._open_or_close(leg, end)
         pace = self._pace(leg, end - world.tick)
@@ -131,6 +137,12 @@ class PymunkDrive:
         x, y, _ = self._trajectory.poses[leg + 1] - self._trajectory.poses[leg]
         return pace(math.hypot(x, y), steps, self._acceleration * self._step**2)
 
+    def _top_speed(self, leg: int, steps: int) -> float:
+        """How fast (m/s) any part of the arm goes on a leg at most."""
+        x, y, turn = (self._trajectory.poses[leg + 1] - self._trajectory.poses[leg]).tolist()
+        way = math.hypot(x, y) + abs(turn) * self._world.measures.length
+        return way / (self._pace(leg, steps).work(steps) * self._step)
+
     def _fast_forward(self, leg: int, end: int, pace: Pace) -> None:
         """Put the arm as far along a leg as nothing can happen, showing it on the way to whoever looks on."""
         world, target = self._world, self._trajectory.poses[leg + 1]
@@ -144,6 +156,7 @@ class PymunkDrive:
         free = end - begin if fraction >= 1.0 else min(math.floor(fraction * work), end - begin - pace.braking)
         self._impulses.extend([force * self._step] * min(free, len(self._impulses)))
         self._force = max(self._force, force if free > 0 else 0.0)
+        self._lookout.due = 0.0
         for world.tick in self._stops(begin, begin + free):
             way = (target - start) * (1.0 - pace.work(end - world.tick) / work)
             place_arm(world, start + way)
@@ -211,25 +224,30 @@ class PymunkDrive:
         body.velocity, body.angular_velocity = carrier.velocity, carrier.angular_velocity
         if world.held is not None and drag(world) * self._step < self._full_impulse:
             carried = world.items[world.held].body
-            carried.velocity = body.velocity_at_world_point(carried.position)
+            carried.velocity = body.velocity_at(carried.position)
             carried.angular_velocity = body.angular_velocity
 
     def _advance(self, end: int) -> None:
         """Step until a number of steps or an end, and keep the mean force of the last 20 ms; the hot path."""
-        world, step, dt, drive = self._world, self._world.space.step, self._step, self._world.arm.drive
-        impulses, touched, begin = self._impulses, len(world.touched), world.tick
-        total, window = sum(impulses), len(impulses)
-        for world.tick in range(begin + 1, end + 1):
-            step(dt)
-            impulse = drive.impulse
+        world, dt, step, impulse_of = self._world, self._step, chipmunk.step, chipmunk.impulse_of
+        space, drive, begun = world.space.handle, world.arm.drive, world.begun
+        impulses, lookout = self._impulses, self._lookout
+        total, window, largest = sum(impulses), len(impulses), 0.0
+        for world.tick in range(world.tick + 1, end + 1):
+            if world.tick >= lookout.due:
+                lookout.look()
+            step(space, dt)
+            impulse = impulse_of(drive)
             total += impulse - impulses[0]
             impulses.append(impulse)
-            if impulse > 0.0:
-                self._weigh(total / window)
+            mean = total / window
+            if impulse > 0.0 and (mean > largest or mean >= self._full_impulse):
+                largest = max(largest, mean)
+                self._weigh(mean)
             if self._period is not None:
                 self._look()
-            if len(world.touched) > touched and self._stop is not None:
-                self._cause = self._cause or touch_reason(self._stop, world.touched)
+            if begun:
+                self._note_touches()
             if self._stalled or self._cause is not None:
                 return
 
@@ -240,10 +258,20 @@ class PymunkDrive:
             self._note_lag()
         self._cause = self._cause or force_reason(self._stop, mean / self._step)
 
+    def _note_touches(self) -> None:
+        """Write down what the arm began to touch in a step, and see whether that ends the motion."""
+        world = self._world
+        for part, other in world.begun:
+            note_contact(world, part, other)
+        world.begun.clear()
+        if self._stop is not None:
+            self._cause = self._cause or touch_reason(self._stop, world.touched)
+
     def _note_lag(self) -> None:
         """The drive gives all it has: see how far the arm is behind, and whether that is a stall."""
         arm = self._world.arm
-        lag = arm.body.position.get_distance(arm.carrier.position)
+        (x0, y0), (x1, y1) = arm.body.position, arm.carrier.position
+        lag = math.sqrt((x0 - x1) ** 2 + (y0 - y1) ** 2)
         self._lag = max(self._lag, lag)
         self._stalled = self._stalled or lag > self._stall_lag
 

@@ -6,9 +6,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import pymunk
-
-from phframe.backends.pymunk_.world import MovingFinger, ShelfItem, ShelfSpace
+from phframe.backends.pymunk_.chipmunk import set_corners, set_group
+from phframe.backends.pymunk_.world import ARM_GROUP, MovingFinger, ShelfItem, ShelfSpace, lay_floor
 from phframe.core import FloatArray
 
 TOUCH = 5e-4
@@ -38,7 +37,7 @@ def set_opening(world: ShelfSpace, opening: float) -> None:
         return
     shift = (opening - world.measures.min_opening) / 2.0
     for finger in world.arm.fingers:
-        finger.polygon.unsafe_set_vertices([(x, y + finger.side * shift) for x, y in finger.corners])
+        set_corners(finger.polygon, [(x, y + finger.side * shift) for x, y in finger.corners])
     world.opening = world.command = opening
 
 
@@ -64,7 +63,7 @@ def _reach(world: ShelfSpace, item: ShelfItem, finger: MovingFinger) -> float:
 
 def _gaps(world: ShelfSpace, item: ShelfItem) -> list[float]:
     """Distance from each finger's inner face to an object's centre (m); negative where it is not beside the finger."""
-    x, y = world.arm.body.world_to_local(item.body.position)
+    x, y = world.arm.body.to_local(item.body.position)
     half = world.opening / 2.0
     return [half - f.side * y if f.back <= x <= f.front else -1.0 for f in world.arm.fingers]
 
@@ -77,29 +76,28 @@ def hold(world: ShelfSpace, item: ShelfItem, command: float) -> None:
         item: What.
         command: The opening that the fingers go on being told to have (m), and squeeze for.
     """
-    item.shape.filter = pymunk.ShapeFilter(group=1)
-    grip = (
-        pymunk.PivotJoint(world.arm.body, item.body, (item.body.position.x, item.body.position.y)),
-        pymunk.GearJoint(world.arm.body, item.body, item.body.angle - world.arm.body.angle, 1.0),
-    )
-    world.space.add(*grip)
-    world.grip, world.held, world.command = grip, item.name, command
+    lay_floor(world, item)
+    set_group(item.shape, ARM_GROUP)
+    arm, body, at = world.arm.body, item.body, item.body.position
+    pivot = world.space.pivot(arm, body, arm.to_local(at), body.to_local(at))
+    world.grip = pivot, world.space.gear(arm, body, body.angle - arm.angle)
+    world.held, world.command = item.name, command
     stand(world, item)
 
 
 def release(world: ShelfSpace) -> None:
     """Let go of what is held: it stands on the board, free, where it is."""
     item = world.items[world.held or ""]
-    world.space.remove(*world.grip)
-    item.shape.filter = pymunk.ShapeFilter()
+    world.space.remove_joints(world.grip)
+    set_group(item.shape, 0)
     world.grip, world.held = (), None
 
 
 def stand(world: ShelfSpace, item: ShelfItem) -> None:
     """Let the board resist what is held, with its friction, up to the mouth, where the board ends."""
-    on_board = item.body.position.x >= 0.0
+    on_board = item.body.position[0] >= 0.0
     if on_board is not item.on_board:
-        (world.space.add if on_board else world.space.remove)(*item.floor)
+        (world.space.put_back if on_board else world.space.remove_joints)(item.floor)
         item.on_board = on_board
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,7 @@ class Measures:
         upper: Greatest x and y of each part ``(m, 2)`` (m).
         sides: Which way each part moves as the gripper opens ``(m,)``.
         min_opening: Distance between the closed fingers (m).
+        hull: Least x, least y, greatest x, greatest y of all parts, however wide the gripper is open (m).
     """
 
     corners: FloatArray
@@ -28,6 +30,13 @@ class Measures:
     upper: FloatArray
     sides: FloatArray
     min_opening: float
+    hull: tuple[float, float, float, float]
+
+    @property
+    def length(self) -> float:
+        """How far (m) anything of the arm is from its fingertip at most."""
+        left, bottom, right, top = self.hull
+        return math.hypot(max(-left, right), max(-bottom, top))
 
     def corners_at(self, opening: float) -> FloatArray:
         """The corners with the fingers ``opening`` (m) apart."""
@@ -42,6 +51,7 @@ class Measures:
 def take_measures(shape: ArmShape) -> Measures:
     """Measure an arm."""
     parts = [outline.vertices for outline in shape.closed]
+    widest = np.vstack([part for at in (shape.min_opening, shape.max_opening) for part in _vertices(shape, at)])
     sides = [float(outline.side) for outline in shape.closed]
     return Measures(
         np.vstack(parts),
@@ -50,7 +60,12 @@ def take_measures(shape: ArmShape) -> Measures:
         np.array([part.max(axis=0) for part in parts]),
         np.array(sides),
         shape.min_opening,
+        (*widest.min(axis=0).tolist(), *widest.max(axis=0).tolist()),
     )
+
+
+def _vertices(shape: ArmShape, opening: float) -> list[FloatArray]:
+    return [outline.vertices for outline in shape.outlines(opening)]
 
 
 def _shift(sides: FloatArray, distance: float) -> FloatArray:

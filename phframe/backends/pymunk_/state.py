@@ -9,7 +9,7 @@ import numpy as np
 
 from phframe.backends.contract import TOP_SPEED
 from phframe.backends.pymunk_.gripper import stand
-from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace
+from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace, lay_floor
 from phframe.core import ArmState, Condition, FloatArray, Floats, SimulationDivergedError, State, Value, planar_pose
 
 
@@ -44,11 +44,12 @@ def survey(world: ShelfSpace) -> None:
     """Take what has left the board at the mouth out of the world; what is held stands on the board as far as that goes."""
     if world.held is not None:
         stand(world, world.items[world.held])
-    gone = [item for item in world.items.values() if item.body.position.x < 0.0 and item.name != world.held]
+    gone = [item for item in world.items.values() if item.body.position[0] < 0.0 and item.name != world.held]
     for item in gone:
         world.spilled[item.name] = _pose(world, world.scene.index(item.name))
         del world.items[item.name]
-        world.space.remove(item.shape, *(item.floor if item.on_board else ()), item.body)
+        world.space.remove_joints(item.floor if item.on_board else ())
+        world.space.remove(item.body, item.shape)
 
 
 def refuse_divergence(world: ShelfSpace) -> None:
@@ -100,7 +101,8 @@ def take_snapshot(world: ShelfSpace) -> PymunkSnapshot:
 def set_in_motion(world: ShelfSpace, velocities: FloatArray) -> None:
     """Give the objects of a world that has just been built their speeds ``(n, 3)``."""
     for name, (x, y, spin) in zip(world.scene.ids, velocities.tolist(), strict=True):
-        if name in world.items:
+        if name in world.items and (x or y or spin):
+            lay_floor(world, world.items[name])
             world.items[name].body.velocity = x, y
             world.items[name].body.angular_velocity = spin
     world.at_rest = not velocities.any()
