@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 
-from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace, lay_floor
+from phframe.backends.pymunk_.world import ShelfSpace, lay_floor
 
-AHEAD = 4
+AHEAD = 8
 """What can be reached within so many steps gets its friction now."""
 HASTE, SLACK = 2.0, 0.05
 """What is pushed goes at most so many times as fast as the arm, and so much faster (m/s)."""
@@ -41,9 +41,12 @@ class Lookout:
     def look(self) -> None:
         """Lay the floor under what may be touched within some steps."""
         world = self._world
-        speeds = [math.hypot(*item.body.velocity) for item in world.items.values() if item.floor]
-        reach = (HASTE * max([self._speed, *speeds]) + SLACK) * self._step
-        self.due = world.tick + lay_floors(world, reach)
+        movable = world.movable
+        if len(movable) == len(world.items):
+            self.due = math.inf
+            return
+        fastest = max([self._speed, *(math.hypot(*item.body.velocity) for item in movable)])
+        self.due = world.tick + lay_floors(world, (HASTE * fastest + SLACK) * self._step)
 
 
 def lay_floors(world: ShelfSpace, reach: float) -> float:
@@ -56,25 +59,19 @@ def lay_floors(world: ShelfSpace, reach: float) -> float:
     Returns:
         For how many steps nothing else can be touched.
     """
-    items = world.items
-    circles = {name: _circle(item) for name, item in items.items()}
-    gaps = _gaps_to_arm(world, {name: circle for name, circle in circles.items() if not items[name].floor})
-    movable = [circle for name, circle in circles.items() if name not in gaps]
+    circles = {name: (*item.body.position, item.radius) for name, item in world.items.items()}
+    movers = {item.name: circles[item.name] for item in world.movable}
+    gaps = _gaps_to_arm(world, {name: circle for name, circle in circles.items() if name not in movers})
     while gaps:
-        _narrow(gaps, circles, movable)
+        _narrow(gaps, circles, movers)
         reached = [name for name, gap in gaps.items() if gap < AHEAD * reach]
         if not reached:
             return min(gaps.values()) / reach
         for name in reached:
-            lay_floor(world, items[name])
+            lay_floor(world, world.items[name])
             del gaps[name]
-        movable = [circles[name] for name in reached]
+        movers = {name: circles[name] for name in reached}
     return math.inf
-
-
-def _circle(item: ShelfItem) -> Circle:
-    x, y = item.body.position
-    return x, y, item.radius
 
 
 def _gaps_to_arm(world: ShelfSpace, circles: dict[str, Circle]) -> dict[str, float]:
@@ -85,15 +82,15 @@ def _gaps_to_arm(world: ShelfSpace, circles: dict[str, Circle]) -> dict[str, flo
     gaps = {}
     for name, (x, y, radius) in circles.items():
         along, across = c * (x - x0) + s * (y - y0), c * (y - y0) - s * (x - x0)
-        beside = max(left - along, along - right, 0.0), max(bottom - across, across - top, 0.0)
-        gaps[name] = math.hypot(*beside) - radius
+        gaps[name] = math.hypot(max(left - along, along - right, 0.0), max(bottom - across, across - top, 0.0)) - radius
     return gaps
 
 
-def _narrow(gaps: dict[str, float], circles: dict[str, Circle], movable: list[Circle]) -> None:
-    """Take in the distances from what may be moved."""
-    for name, gap in gaps.items():
+def _narrow(gaps: dict[str, float], circles: dict[str, Circle], movers: dict[str, Circle]) -> None:
+    """Take in the distances from what else may move."""
+    for name in gaps:
         x, y, radius = circles[name]
-        for x1, y1, radius1 in movable:
-            gap = min(gap, math.hypot(x - x1, y - y1) - radius - radius1)
-        gaps[name] = gap
+        for x1, y1, radius1 in movers.values():
+            gap = math.hypot(x - x1, y - y1) - radius - radius1
+            if gap < gaps[name]:
+                gaps[name] = gap

@@ -6,28 +6,27 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from phframe.backends.pymunk_.chipmunk import set_corners, set_group
+from phframe.backends.pymunk_.chipmunk import Point, set_corners, set_group
 from phframe.backends.pymunk_.world import ARM_GROUP, MovingFinger, ShelfItem, ShelfSpace, lay_floor
-from phframe.core import FloatArray
 
 TOUCH = 5e-4
 """A finger this near (m) to an object touches it."""
 
 
-def place_arm(world: ShelfSpace, pose: FloatArray) -> None:
-    """Put the arm at a fingertip pose ``(3,)``, at rest; only where that is collision-free."""
+def place_arm(world: ShelfSpace, pose: Sequence[float]) -> None:
+    """Put the arm at a fingertip pose (x, y, yaw), at rest; only where that is collision-free."""
+    x, y, yaw = pose
     for body in (world.arm.body, world.arm.carrier):
-        body.position = float(pose[0]), float(pose[1])
-        body.angle = float(pose[2])
+        body.position, body.angle = (x, y), yaw
         body.velocity = 0.0, 0.0
         body.angular_velocity = 0.0
     world.parked = False
 
 
-def place_held(world: ShelfSpace, position: FloatArray) -> None:
-    """Put what is held at a position ``(2,)``, at rest, with the turn it has."""
+def place_held(world: ShelfSpace, position: Point) -> None:
+    """Put what is held at a position, at rest, with the turn it has."""
     held = world.items[world.held or ""].body
-    held.position = float(position[0]), float(position[1])
+    held.position = position
     held.velocity, held.angular_velocity = (0.0, 0.0), 0.0
 
 

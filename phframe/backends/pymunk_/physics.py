@@ -77,7 +77,7 @@ class PymunkPhysics(Physics[PymunkOptions]):
         refuse_foreign(self.scene, self.arm.shape, state)
         self._world = world = build_world(self.model, state)
         if state.arm is not None:
-            place_arm(world, state.arm.gripper)
+            place_arm(world, state.arm.gripper.tolist())
             set_opening(world, state.arm.opening)
             world.command = state.arm.commanded_opening
         if state.held is not None and state.held in world.items:

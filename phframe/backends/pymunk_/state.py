@@ -58,7 +58,7 @@ def refuse_divergence(world: ShelfSpace) -> None:
     Raises:
         SimulationDivergedError: With the object and its speed.
     """
-    for item in world.items.values():
+    for item in world.movable:
         if not _speed(item) < TOP_SPEED:
             raise SimulationDivergedError(
                 f"the simulation diverged: {item.name!r} moves at {_speed(item):.3g} m/s; try a smaller backend step"
@@ -67,7 +67,7 @@ def refuse_divergence(world: ShelfSpace) -> None:
 
 def is_calm(world: ShelfSpace, speed: float) -> bool:
     """Whether every object on the board is slower than ``speed`` (m/s), rim included."""
-    return all(_speed(item) < speed for item in world.items.values())
+    return all(_speed(item) < speed for item in world.movable)
 
 
 def _speed(item: ShelfItem) -> float:

@@ -66,37 +66,28 @@ class ShelfItem:
 
     Attributes:
         thing: As the scene has it.
-        foot: Where it is, and what it stands with.
+        name: Its id.
+        radius: Its bounding radius seen from above (m).
+        body: Where it is.
+        foot: Its outline, and what it stands with.
         friction: Most that the board resists its sliding with, ``mu m g`` (N).
         floor: Joints of limited force that stand for that friction; none yet while nothing can have moved it.
         on_board: Whether it stands on the board; what is held outside does not.
     """
 
     thing: SceneObject
+    name: str
+    radius: float
+    body: ChipmunkBody
     foot: Footprint
     friction: float
     floor: tuple[Handle, ...] = ()
     on_board: bool = True
 
     @property
-    def body(self) -> ChipmunkBody:
-        """Where it is."""
-        return self.foot.body
-
-    @property
     def shape(self) -> Handle:
         """Its outline."""
         return self.foot.primitive
-
-    @property
-    def name(self) -> str:
-        """Its id."""
-        return self.thing.id
-
-    @property
-    def radius(self) -> float:
-        """Its bounding radius seen from above (m)."""
-        return self.thing.radius
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,6 +172,11 @@ class ShelfSpace:
     touched: list[tuple[int, str, str, bool]] = field(default_factory=list)
     grip: tuple[Handle, ...] = ()
 
+    @property
+    def movable(self) -> list[ShelfItem]:
+        """What may have moved since the state was restored: the rest is as it was."""
+        return [item for item in self.items.values() if item.floor]
+
 
 @dataclass(frozen=True, slots=True)
 class PymunkModel:
@@ -259,7 +255,7 @@ def _add_item(
     foot = footprint(space, item.shape, item.mass, friction)
     foot.body.position, foot.body.angle = (pose[0], pose[1]), yaw_of(pose)
     space.add_shape(foot.primitive, surfaces.object_factor, OBJECT)
-    return ShelfItem(item, foot, friction)
+    return ShelfItem(item, item.id, item.radius, foot.body, foot, friction)
 
 
 def lay_floor(world: ShelfSpace, item: ShelfItem) -> None:

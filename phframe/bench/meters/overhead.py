@@ -117,7 +117,7 @@ def _bare(world: PlanningWorld, applied: Sequence[tuple[State, Action]]) -> tupl
     for state, action in applied:
         built = build_world(physics.model, state)
         legs = _legs(world, state, action, step)
-        place_arm(built, action.path.poses[0])
+        place_arm(built, action.path.poses[0].tolist())
         built.arm.drive.max_force = world.arm.force_limit
         seconds += _loop(built, legs, step)
         steps += sum(count for _, count in legs)
