@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from phframe.backends.pymunk_.world import ShelfSpace, lay_floor
+from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace, lay_floor
 
 AHEAD = 8
 """What can be reached within so many steps gets its friction now."""
@@ -40,57 +40,62 @@ class Lookout:
 
     def look(self) -> None:
         """Lay the floor under what may be touched within some steps."""
-        world = self._world
-        movable = world.movable
-        if len(movable) == len(world.items):
-            self.due = math.inf
-            return
-        fastest = max([self._speed, *(math.hypot(*item.body.velocity) for item in movable)])
-        self.due = world.tick + lay_floors(world, (HASTE * fastest + SLACK) * self._step)
+        fastest, movers, waiting = self._speed, [], []
+        for item in self._world.items.values():
+            x, y = item.body.position
+            if item.floor:
+                movers.append((x, y, item.radius))
+                fastest = max(fastest, math.hypot(*item.body.velocity))
+            else:
+                waiting.append((item, (x, y, item.radius)))
+        reach = (HASTE * fastest + SLACK) * self._step
+        self.due = self._world.tick + lay_floors(self._world, waiting, movers, AHEAD * reach) / reach
 
 
-def lay_floors(world: ShelfSpace, reach: float) -> float:
-    """Lay the floor under what may be touched within some steps.
+def lay_floors(
+    world: ShelfSpace, waiting: list[tuple[ShelfItem, Circle]], movers: list[Circle], near: float
+) -> float:
+    """Lay the floor under what is near the arm, or near something that may be pushed, and so on.
 
     Args:
         world: Where.
-        reach: How far anything goes in a step at most (m).
+        waiting: What has no floor yet.
+        movers: What may be pushed.
+        near: How near (m).
 
     Returns:
-        For how many steps nothing else can be touched.
+        Distance (m) from the arm and all that may be pushed to the nearest object that still has no floor.
     """
-    circles = {name: (*item.body.position, item.radius) for name, item in world.items.items()}
-    movers = {item.name: circles[item.name] for item in world.movable}
-    gaps = _gaps_to_arm(world, {name: circle for name, circle in circles.items() if name not in movers})
-    while gaps:
-        _narrow(gaps, circles, movers)
-        reached = [name for name, gap in gaps.items() if gap < AHEAD * reach]
-        if not reached:
-            return min(gaps.values()) / reach
-        for name in reached:
-            lay_floor(world, world.items[name])
-            del gaps[name]
-        movers = {name: circles[name] for name in reached}
+    gaps = [_gap_to_arm(world, circle) for _, circle in waiting]
+    while waiting:
+        gaps = [_nearest(gap, circle, movers) for gap, (_, circle) in zip(gaps, waiting, strict=True)]
+        nearest = min(gaps)
+        if nearest >= near:
+            return nearest
+        movers = [circle for gap, (_, circle) in zip(gaps, waiting, strict=True) if gap < near]
+        for gap, (item, _) in zip(gaps, waiting, strict=True):
+            if gap < near:
+                lay_floor(world, item)
+        left = [(gap, one) for gap, one in zip(gaps, waiting, strict=True) if gap >= near]
+        gaps, waiting = [gap for gap, _ in left], [one for _, one in left]
     return math.inf
 
 
-def _gaps_to_arm(world: ShelfSpace, circles: dict[str, Circle]) -> dict[str, float]:
-    """Distance of each circle from the box around the arm (m), below 0 inside."""
+def _gap_to_arm(world: ShelfSpace, circle: Circle) -> float:
+    """Distance of a circle from the box around the arm (m), below 0 where they overlap."""
     (x0, y0), angle = world.arm.body.position, world.arm.body.angle
     c, s = math.cos(angle), math.sin(angle)
     left, bottom, right, top = world.measures.hull
-    gaps = {}
-    for name, (x, y, radius) in circles.items():
-        along, across = c * (x - x0) + s * (y - y0), c * (y - y0) - s * (x - x0)
-        gaps[name] = math.hypot(max(left - along, along - right, 0.0), max(bottom - across, across - top, 0.0)) - radius
-    return gaps
+    x, y = circle[0] - x0, circle[1] - y0
+    along, across = c * x + s * y, c * y - s * x
+    return math.hypot(max(left - along, along - right, 0.0), max(bottom - across, across - top, 0.0)) - circle[2]
 
 
-def _narrow(gaps: dict[str, float], circles: dict[str, Circle], movers: dict[str, Circle]) -> None:
-    """Take in the distances from what else may move."""
-    for name in gaps:
-        x, y, radius = circles[name]
-        for x1, y1, radius1 in movers.values():
-            gap = math.hypot(x - x1, y - y1) - radius - radius1
-            if gap < gaps[name]:
-                gaps[name] = gap
+def _nearest(gap: float, circle: Circle, others: list[Circle]) -> float:
+    """The least of a distance and those between a circle and others (m)."""
+    x, y, radius = circle
+    for x1, y1, radius1 in others:
+        between = math.hypot(x - x1, y - y1) - radius - radius1
+        if between < gap:
+            gap = between
+    return gap

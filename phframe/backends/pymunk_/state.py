@@ -10,12 +10,12 @@ import numpy as np
 from phframe.backends.contract import TOP_SPEED
 from phframe.backends.pymunk_.gripper import stand
 from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace, lay_floor
-from phframe.core import ArmState, Condition, FloatArray, Floats, SimulationDivergedError, State, Value, planar_pose
+from phframe.core import ArmState, Condition, FloatArray, Floats, SceneObject, SimulationDivergedError, State, Value
 
 
 def read_state(world: ShelfSpace) -> State:
     """The world as it is now."""
-    poses = np.array([_pose(world, row) for row in range(len(world.scene.objects))])
+    poses = np.array([_pose(world, item) for item in world.scene.objects])
     conditions = tuple(_condition(world, name) for name in world.scene.ids)
     return State(poses, conditions, world.held, None if world.parked else _arm_state(world))
 
@@ -27,12 +27,13 @@ def _condition(world: ShelfSpace, name: str) -> Condition:
     return Condition.TOPPLED if name in world.toppled else Condition.UPRIGHT
 
 
-def _pose(world: ShelfSpace, row: int) -> FloatArray:
-    item = world.scene.objects[row]
+def _pose(world: ShelfSpace, item: SceneObject) -> list[float]:
+    """A pose, in plain numbers: an array of each object costs more than one of all."""
     if item.id in world.spilled:
         return world.spilled[item.id]
     body = world.items[item.id].body
-    return planar_pose(*body.position, item.shape.height / 2.0, body.angle)
+    (x, y), half = body.position, body.angle / 2.0
+    return [x, y, item.shape.height / 2.0, math.cos(half), 0.0, 0.0, math.sin(half)]
 
 
 def _arm_state(world: ShelfSpace) -> ArmState:
@@ -46,7 +47,7 @@ def survey(world: ShelfSpace) -> None:
         stand(world, world.items[world.held])
     gone = [item for item in world.items.values() if item.body.position[0] < 0.0 and item.name != world.held]
     for item in gone:
-        world.spilled[item.name] = _pose(world, world.scene.index(item.name))
+        world.spilled[item.name] = _pose(world, item.thing)
         del world.items[item.name]
         world.space.remove_joints(item.floor if item.on_board else ())
         world.space.remove(item.body, item.shape)

@@ -137,7 +137,7 @@ class ShelfSpace:
         space: The space.
         items: Objects on the board or in the hand, by id.
         arm: The arm.
-        spilled: Last pose ``(7,)`` of what has left the board, by id.
+        spilled: Last pose (7 numbers) of what has left the board, by id.
         toppled: Ids of what lay on its side when the state was restored.
         names: What each shape is called, of objects, walls and parts of the arm.
         measures: Of the arm.
@@ -157,8 +157,8 @@ class ShelfSpace:
     space: ChipmunkSpace
     items: dict[str, ShelfItem]
     arm: DrivenArm
-    spilled: dict[str, FloatArray]
-    toppled: frozenset[str]
+    spilled: dict[str, list[float]]
+    toppled: set[str]
     names: dict[Handle, str]
     measures: Measures
     standing: float | None
@@ -206,14 +206,16 @@ def build_world(model: PymunkModel, state: State) -> ShelfSpace:
     scene, surfaces, closed = model.scene, model.surfaces, model.measures.min_opening
     space = ChipmunkSpace(model.iterations, SLOP, model.arm_mass)
     walls = _add_walls(space, scene, surfaces)
-    spilled = {scene.ids[row]: state.poses[row] for row in np.flatnonzero(~state.on_board)}
-    items = {
-        item.id: _add_item(space, scene, item, pose, surfaces)
-        for item, pose in zip(scene.objects, state.poses.tolist(), strict=True)
-        if item.id not in spilled
-    }
+    found = zip(scene.objects, state.poses.tolist(), state.conditions, strict=True)
+    items, spilled, toppled = {}, {}, set()
+    for item, pose, condition in found:
+        if condition is Condition.SPILLED:
+            spilled[item.id] = pose
+        else:
+            items[item.id] = _add_item(space, scene, item, pose, surfaces)
+        if condition is Condition.TOPPLED:
+            toppled.add(item.id)
     arm = _add_arm(space, model)
-    toppled = frozenset(name for name, c in zip(scene.ids, state.conditions, strict=True) if c is Condition.TOPPLED)
     names = {**walls, **{item.shape: name for name, item in items.items()}, **arm.names}
     world = ShelfSpace(
         scene, space, items, arm, spilled, toppled, names, model.measures, surfaces.standing, closed, closed
