@@ -1,6 +1,6 @@
 """Chipmunk's own functions, as pymunk brings them: around a step of some microseconds its wrappers cost more than the step.
 
-pymunk itself is used where it takes Python to answer: for the callbacks of contacts.
+Where Chipmunk calls back, it calls pymunk's functions, which hand over to an object with the attributes that they ask for.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 from weakref import finalize
 
-import pymunk
+from pymunk import Arbiter
 from pymunk._chipmunk_cffi import ffi, lib
 
 Handle = Any
@@ -100,25 +100,22 @@ class ChipmunkSpace:
     Args:
         iterations: Of the solver, per step.
         slop: Overlap that is left alone (m).
-        mass: Of the body whose contacts can be asked for (kg).
 
     Attributes:
         handle: As Chipmunk has it.
         board: The body that everything stands on: it never moves.
-        watched: The body whose contacts can be asked for.
     """
 
-    def __init__(self, iterations: int, slop: float, mass: float) -> None:
-        self._space, self._watched = pymunk.Space(), pymunk.Body(mass, mass)
-        self._space.iterations, self._space.collision_slop = iterations, slop
-        self.handle: Handle = self._space._space
+    def __init__(self, iterations: int, slop: float) -> None:
+        self.handle: Handle = lib.cpSpaceNew()
+        lib.cpSpaceSetIterations(self.handle, iterations)
+        lib.cpSpaceSetCollisionSlop(self.handle, slop)
         self.board = ChipmunkBody(lib.cpSpaceGetStaticBody(self.handle))
-        self._space.add(self._watched)
-        self.watched = ChipmunkBody(self._watched._body)
         self._bodies: list[Handle] = []
         self._shapes: list[Handle] = []
         self._joints: list[Handle] = []
-        finalize(self, _free, self._space, self._joints, self._shapes, self._bodies)
+        self._called_back: list[Handle] = []
+        finalize(self, _free, self.handle, self._joints, self._shapes, self._bodies, self._called_back)
 
     def body(self, mass: float, moment: float) -> ChipmunkBody:
         """A new body of some mass (kg) and moment of inertia (kg m^2)."""
@@ -180,13 +177,18 @@ class ChipmunkSpace:
 
     def on_touch(self, first: int, second: int, begun: list[tuple[Handle, Handle]]) -> None:
         """Have two shapes, of two collision types, appended to a list when they begin to touch in a step."""
-        self._space.on_collision(first, second, begin=lambda arbiter, space, data: begun.append(_shapes(arbiter)))
+        handler = lib.cpSpaceAddCollisionHandler(self.handle, first, second)
+        handler.beginFunc = lib.ext_cpCollisionBeginFunc
+        handler.userData = called_back = ffi.new_handle(_BeginHandler(begun))
+        self._called_back.append(called_back)
 
-    def contacts(self) -> list[tuple[Handle, Handle, float]]:
-        """The contacts that the watched body had in the last step: its shape, the other, how deep they overlap (m)."""
-        found: list[tuple[Handle, Handle, float]] = []
-        self._watched.each_arbiter(lambda arbiter: found.append((*_shapes(arbiter), _depth(arbiter))))
-        return found
+
+def contacts(body: ChipmunkBody) -> list[tuple[Handle, Handle, float]]:
+    """The contacts that a body had in the last step: its own shape, the other, how deep they overlap (m)."""
+    found: list[tuple[Handle, Handle, float]] = []
+    asked = ffi.new_handle((_InSpace, lambda arbiter: found.append((*_shapes(arbiter), _depth(arbiter))), (), {}))
+    lib.cpBodyEachArbiter(body.handle, lib.ext_cpBodyArbiterIteratorFunc, asked)
+    return found
 
 
 def circle(body: ChipmunkBody, radius: float) -> Handle:
@@ -216,27 +218,40 @@ def limit(joint: Handle, force: float) -> Handle:
     return joint
 
 
-def _shapes(arbiter: pymunk.Arbiter) -> tuple[Handle, Handle]:
+class _BeginHandler:
+    """What pymunk's callback at the beginning of a contact asks for."""
+
+    __slots__ = ("_begun", "_space", "data")
+
+    def __init__(self, begun: list[tuple[Handle, Handle]]) -> None:
+        self._begun, self._space, self.data = begun, None, {"begin": None}
+
+    def _begin(self, arbiter: Arbiter, space: None, data: None) -> None:
+        self._begun.append(_shapes(arbiter))
+
+
+class _InSpace:
+    """What pymunk's callback for each contact of a body asks of the body: a space that is there."""
+
+    space = ()
+
+
+def _shapes(arbiter: Arbiter) -> tuple[Handle, Handle]:
     first, second = ffi.new("cpShape *[1]"), ffi.new("cpShape *[1]")
     lib.cpArbiterGetShapes(arbiter._arbiter, first, second)
     return first[0], second[0]
 
 
-def _depth(arbiter: pymunk.Arbiter) -> float:
+def _depth(arbiter: Arbiter) -> float:
     return max((-point.distance for point in arbiter.contact_point_set.points), default=0.0)
 
 
-def _free(space: pymunk.Space, joints: list[Handle], shapes: list[Handle], bodies: list[Handle]) -> None:
-    """Empty a space and give back what was in it, or had been: first what hangs on something else."""
+def _free(space: Handle, joints: list[Handle], shapes: list[Handle], bodies: list[Handle], _: list[Handle]) -> None:
+    """Give back a space and what was in it; what is called back is held as long."""
+    lib.cpSpaceFree(space)
     for joint in joints:
-        if lib.cpConstraintGetSpace(joint):
-            lib.cpSpaceRemoveConstraint(space._space, joint)
         lib.cpConstraintFree(joint)
     for shape in shapes:
-        if lib.cpShapeGetSpace(shape):
-            lib.cpSpaceRemoveShape(space._space, shape)
         lib.cpShapeFree(shape)
     for body in bodies:
-        if lib.cpBodyGetSpace(body):
-            lib.cpSpaceRemoveBody(space._space, body)
         lib.cpBodyFree(body)

@@ -117,7 +117,7 @@ class PymunkDrive:
     def _follow(self, leg: int) -> None:
         """Drive the carrier along a leg, fast-forwarding over what is free while all is still."""
         world, trajectory, end = self._world, self._trajectory, self._ticks[leg + 1]
-        for part, other, _ in world.space.contacts():
+        for part, other, _ in chipmunk.contacts(world.arm.body):
             note_contact(world, part, other)
         self._lookout.expect(self._top_speed(leg, end - world.tick))
         if trajectory.openings[leg] != trajectory.openings[leg + 1]:

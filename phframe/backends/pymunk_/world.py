@@ -13,6 +13,7 @@ from phframe.backends.pymunk_.chipmunk import (
     ChipmunkSpace,
     Handle,
     Point,
+    contacts,
     kind_of,
     limit,
     polygon,
@@ -204,7 +205,7 @@ class PymunkModel:
 def build_world(model: PymunkModel, state: State) -> ShelfSpace:
     """A new space that holds ``state``; always new, since a used one remembers what ran in it."""
     scene, surfaces, closed = model.scene, model.surfaces, model.measures.min_opening
-    space = ChipmunkSpace(model.iterations, SLOP, model.arm_mass)
+    space = ChipmunkSpace(model.iterations, SLOP)
     walls = _add_walls(space, scene, surfaces)
     found = zip(scene.objects, state.poses.tolist(), state.conditions, strict=True)
     items, spilled, toppled = {}, {}, set()
@@ -232,7 +233,7 @@ def note_contact(world: ShelfSpace, part: Handle, other: Handle) -> None:
 
 def overlap(world: ShelfSpace) -> float:
     """How deep the arm is in whatever it touches (m): bodies overlap where they press on each other."""
-    return max((depth for _, _, depth in world.space.contacts()), default=0.0)
+    return max((depth for _, _, depth in contacts(world.arm.body)), default=0.0)
 
 
 def _add_walls(space: ChipmunkSpace, scene: Scene, surfaces: PymunkSurfaces) -> dict[Handle, str]:
@@ -289,7 +290,7 @@ def trimmed(vertices: FloatArray) -> tuple[Point, ...]:
 
 
 def _add_arm(space: ChipmunkSpace, model: PymunkModel) -> DrivenArm:
-    body, carrier = space.watched, space.kinematic()
+    body, carrier = space.body(model.arm_mass, model.arm_mass), space.kinematic()
     drive = space.pivot(carrier, body, CENTER, CENTER)
     space.gear(carrier, body, 0.0)
     friction = model.surfaces.partner_factor(model.surfaces.arm)
