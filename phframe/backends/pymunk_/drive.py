@@ -226,7 +226,10 @@ class PymunkDrive:
         """Make the carrier arrive at a pose in time; the drive need not accelerate the arm itself, nor what it can carry."""
         world, carrier, body = self._world, self._world.arm.carrier, self._world.arm.body
         x, y = carrier.position
-        velocity, spin = ((target[0] - x) / duration, (target[1] - y) / duration), (target[2] - carrier.angle) / duration
+        velocity, spin = (
+            ((target[0] - x) / duration, (target[1] - y) / duration),
+            (target[2] - carrier.angle) / duration,
+        )
         carrier.velocity = body.velocity = velocity
         carrier.angular_velocity = body.angular_velocity = spin
         if world.held is not None and drag(world) * self._step < self._full_impulse:
@@ -238,9 +241,9 @@ class PymunkDrive:
         """Step until a number of steps or an end, and keep the mean force of the last 20 ms; the hot path."""
         world, dt, step, impulse_of = self._world, self._step, chipmunk.step, chipmunk.impulse_of
         space, drive, begun = world.space.handle, world.arm.drive, world.begun
-        impulses, lookout = self._impulses, self._lookout
+        impulses, lookout, begin = self._impulses, self._lookout, world.tick
         total, window, largest = sum(impulses), len(impulses), 0.0
-        for world.tick in range(world.tick + 1, end + 1):
+        for world.tick in range(begin + 1, end + 1):
             if world.tick >= lookout.due:
                 lookout.look()
             step(space, dt)

@@ -52,9 +52,7 @@ class Lookout:
         self.due = self._world.tick + lay_floors(self._world, waiting, movers, AHEAD * reach) / reach
 
 
-def lay_floors(
-    world: ShelfSpace, waiting: list[tuple[ShelfItem, Circle]], movers: list[Circle], near: float
-) -> float:
+def lay_floors(world: ShelfSpace, waiting: list[tuple[ShelfItem, Circle]], movers: list[Circle], near: float) -> float:
     """Lay the floor under what is near the arm, or near something that may be pushed, and so on.
 
     Args:
@@ -66,29 +64,30 @@ def lay_floors(
     Returns:
         Distance (m) from the arm and all that may be pushed to the nearest object that still has no floor.
     """
-    gaps = [_gap_to_arm(world, circle) for _, circle in waiting]
+    gaps = _gaps_to_arm(world, [circle for _, circle in waiting])
     while waiting:
         gaps = [_nearest(gap, circle, movers) for gap, (_, circle) in zip(gaps, waiting, strict=True)]
-        nearest = min(gaps)
-        if nearest >= near:
-            return nearest
-        movers = [circle for gap, (_, circle) in zip(gaps, waiting, strict=True) if gap < near]
-        for gap, (item, _) in zip(gaps, waiting, strict=True):
-            if gap < near:
-                lay_floor(world, item)
-        left = [(gap, one) for gap, one in zip(gaps, waiting, strict=True) if gap >= near]
-        gaps, waiting = [gap for gap, _ in left], [one for _, one in left]
+        if min(gaps) >= near:
+            return min(gaps)
+        reached = [one for gap, one in zip(gaps, waiting, strict=True) if gap < near]
+        waiting = [one for gap, one in zip(gaps, waiting, strict=True) if gap >= near]
+        gaps = [gap for gap in gaps if gap >= near]
+        movers = [circle for _, circle in reached]
+        for item, _ in reached:
+            lay_floor(world, item)
     return math.inf
 
 
-def _gap_to_arm(world: ShelfSpace, circle: Circle) -> float:
-    """Distance of a circle from the box around the arm (m), below 0 where they overlap."""
+def _gaps_to_arm(world: ShelfSpace, circles: list[Circle]) -> list[float]:
+    """Distance of each circle from the box around the arm (m), below 0 where they overlap."""
     (x0, y0), angle = world.arm.body.position, world.arm.body.angle
     c, s = math.cos(angle), math.sin(angle)
     left, bottom, right, top = world.measures.hull
-    x, y = circle[0] - x0, circle[1] - y0
-    along, across = c * x + s * y, c * y - s * x
-    return math.hypot(max(left - along, along - right, 0.0), max(bottom - across, across - top, 0.0)) - circle[2]
+    gaps = []
+    for x, y, radius in circles:
+        along, across = c * (x - x0) + s * (y - y0), c * (y - y0) - s * (x - x0)
+        gaps.append(math.hypot(max(left - along, along - right, 0.0), max(bottom - across, across - top, 0.0)) - radius)
+    return gaps
 
 
 def _nearest(gap: float, circle: Circle, others: list[Circle]) -> float:

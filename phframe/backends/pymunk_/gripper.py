@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+
 from phframe.backends.pymunk_.chipmunk import Point, set_corners, set_group
 from phframe.backends.pymunk_.world import ARM_GROUP, MovingFinger, ShelfItem, ShelfSpace, lay_floor
 

@@ -38,9 +38,7 @@ class Measures:
     def corners_at(self, opening: float) -> list[tuple[float, float]]:
         """All corners with the fingers ``opening`` (m) apart."""
         half = (opening - self.min_opening) / 2.0
-        return [
-            (x, y + side * half) for part, side in zip(self.corners, self.sides, strict=True) for x, y in part
-        ]
+        return [(x, y + side * half) for part, side in zip(self.corners, self.sides, strict=True) for x, y in part]
 
     def boxes_at(self, opening: float) -> list[Box]:
         """The boxes around the parts with the fingers ``opening`` (m) apart."""
