@@ -1,0 +1,35 @@
+"""numba, as the other modules of this engine use it: this one alone imports it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from hashlib import sha256
+from pathlib import Path
+from typing import ParamSpec, TypeVar
+
+import numba
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def compiled(function: Callable[P, T]) -> Callable[P, T]:
+    """The function as machine code, made when it is first called, as a part of the entry point that calls it."""
+    made: Callable[P, T] = numba.njit(error_model="numpy", nogil=True)(function)
+    return made
+
+
+def entry_point(function: Callable[P, T]) -> Callable[P, T]:
+    """The same, kept on disk.
+
+    numba looks for changes in the file of the function alone, not in what it calls; but it does look at the values that
+    the function closes over. So the function is to close over ``fingerprint()``.
+    """
+    made: Callable[P, T] = numba.njit(error_model="numpy", nogil=True, cache=True)(function)
+    return made
+
+
+def fingerprint() -> int:
+    """A number that changes with any source file of this engine."""
+    sources = sorted(Path(__file__).parent.glob("*.py"))
+    return int.from_bytes(sha256(b"".join(source.read_bytes() for source in sources)).digest()[:7], "big")

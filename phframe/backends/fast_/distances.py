@@ -1,0 +1,108 @@
+"""Signed distances of discs, boxes and convex polygons."""
+
+from __future__ import annotations
+
+import math
+
+from phframe.backends.fast_.compiled import compiled
+from phframe.backends.fast_.layout import (
+    BODY_X,
+    BODY_Y,
+    CORNER_X,
+    CORNER_Y,
+    DEPTH,
+    EDGE_NX,
+    EDGE_NY,
+    END,
+    FIRST,
+    MIDDLE_X,
+    MIDDLE_Y,
+    MIN_OPENING,
+    NORTH,
+    OPENING,
+    OWN_NX,
+    OWN_NY,
+    OWN_X,
+    OWN_Y,
+    SIDE,
+    SOUTH,
+    WALL_THICKNESS,
+    WIDTH,
+    YAW,
+    FastWorld,
+)
+
+Measured = tuple[float, float, float]
+"""A signed distance (m) and the direction in which it grows: x, y."""
+FAR = 1e9
+
+
+@compiled
+def lay_arm(world: FastWorld) -> None:
+    """Where the arm's corners, normals and circles lie in the shelf."""
+    arm = world.arm
+    cosine, sine = math.cos(arm[YAW]), math.sin(arm[YAW])
+    shift = (arm[OPENING] - world.arm[MIN_OPENING]) / 2.0
+    for part in range(len(world.parts)):
+        aside = world.parts[part, SIDE] * shift
+        x, y = world.parts[part, OWN_X], world.parts[part, OWN_Y] + aside
+        world.parts[part, MIDDLE_X] = arm[BODY_X] + cosine * x - sine * y
+        world.parts[part, MIDDLE_Y] = arm[BODY_Y] + sine * x + cosine * y
+        for row in range(int(world.parts[part, FIRST]), int(world.parts[part, END])):
+            x, y = world.corners[row, OWN_X], world.corners[row, OWN_Y] + aside
+            world.corners[row, CORNER_X] = arm[BODY_X] + cosine * x - sine * y
+            world.corners[row, CORNER_Y] = arm[BODY_Y] + sine * x + cosine * y
+            x, y = world.corners[row, OWN_NX], world.corners[row, OWN_NY]
+            world.corners[row, EDGE_NX] = cosine * x - sine * y
+            world.corners[row, EDGE_NY] = sine * x + cosine * y
+
+
+@compiled
+def to_part(world: FastWorld, part: int, x: float, y: float) -> Measured:
+    """From a part of the arm to a point; from its edge or corner that is nearest."""
+    begin, end = int(world.parts[part, FIRST]), int(world.parts[part, END])
+    best, edge = -FAR, begin
+    for row in range(begin, end):
+        distance = (x - world.corners[row, CORNER_X]) * world.corners[row, EDGE_NX] + (
+            y - world.corners[row, CORNER_Y]
+        ) * world.corners[row, EDGE_NY]
+        if distance > best:
+            best, edge = distance, row
+    nx, ny = world.corners[edge, EDGE_NX], world.corners[edge, EDGE_NY]
+    if best <= 0.0:
+        return best, nx, ny
+    following = begin if edge + 1 == end else edge + 1
+    for corner, sign in ((edge, 1.0), (following, -1.0)):
+        dx, dy = x - world.corners[corner, CORNER_X], y - world.corners[corner, CORNER_Y]
+        if sign * (-ny * dx + nx * dy) < 0.0:
+            distance = math.hypot(dx, dy)
+            return distance, dx / distance, dy / distance
+    return best, nx, ny
+
+
+@compiled
+def to_wall(world: FastWorld, wall: int, x: float, y: float) -> Measured:
+    """From a wall, a box that ends at the mouth, to a point."""
+    depth, width = world.arm[DEPTH], world.arm[WIDTH]
+    if wall == SOUTH:
+        return _to_box(0.0, -WALL_THICKNESS, depth, 0.0, x, y)
+    if wall == NORTH:
+        return _to_box(0.0, width, depth, width + WALL_THICKNESS, x, y)
+    return _to_box(depth, -WALL_THICKNESS, depth + WALL_THICKNESS, width + WALL_THICKNESS, x, y)
+
+
+@compiled
+def _to_box(left: float, low: float, right: float, high: float, x: float, y: float) -> Measured:
+    nearest_x, nearest_y = min(max(x, left), right), min(max(y, low), high)
+    dx, dy = x - nearest_x, y - nearest_y
+    distance = math.hypot(dx, dy)
+    if distance > 0.0:
+        return distance, dx / distance, dy / distance
+    best, nx, ny = x - left, -1.0, 0.0
+    if right - x < best:
+        best, nx = right - x, 1.0
+    if y - low < best:
+        best, nx, ny = y - low, 0.0, -1.0
+    if high - y < best:
+        best, nx, ny = high - y, 0.0, 1.0
+    return -best, nx, ny
