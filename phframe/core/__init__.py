@@ -29,7 +29,7 @@ from phframe.core.mesh import LinkMesh
 from phframe.core.motion import FORCE_WINDOW, Contact, Motion, StopCause, StopReason, Transition
 from phframe.core.motion_planner import MotionPlanner, SupportsMotionPlanning, motion_planner_of
 from phframe.core.options import Options
-from phframe.core.physics import Physics, Settle, Stop, SupportsPropagation, Watch
+from phframe.core.physics import Physics, Settle, Stop, SupportsManySimulations, SupportsPropagation, Watch
 from phframe.core.plan import Cost, Plan
 from phframe.core.planner import Planner
 from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, seen_from_above, tilt_of, yaw_of
@@ -127,6 +127,7 @@ __all__ = [
     "StopCause",
     "StopReason",
     "StoredName",
+    "SupportsManySimulations",
     "SupportsMotionPlanning",
     "SupportsPropagation",
     "Task",

@@ -21,6 +21,7 @@ from phframe.backends.fast_.layout import (
     GRIP_YAW,
     HELD,
     MASS,
+    MOST_FRICTION,
     OPENING,
     PRESENT,
     RADIUS,
@@ -109,6 +110,13 @@ def release(world: FastWorld) -> None:
     arm[HELD] = -1.0
     arm[DRAG_X] = arm[DRAG_Y] = 0.0
     world.bodies[len(world.bodies) - 2, BY_MASS] = 1.0 / world.arm[ARM_MASS]
+
+
+@compiled
+def drag_force(world: FastWorld) -> float:
+    """What it takes to move what is held along the board (N)."""
+    held = int(world.arm[HELD])
+    return float(world.bodies[held, MOST_FRICTION]) if held >= 0 and world.bodies[held, X] >= 0.0 else 0.0
 
 
 @compiled

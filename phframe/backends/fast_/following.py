@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from phframe.backends.fast_.compiled import compiled
-from phframe.backends.fast_.fingers import forget_between, grip, note_between, told_opening
+from phframe.backends.fast_.fingers import drag_force, forget_between, grip, note_between, told_opening
 from phframe.backends.fast_.layout import (
     ARM_VX,
     ARM_VY,
@@ -68,7 +68,7 @@ from phframe.backends.fast_.layout import (
     FastWorld,
     X,
 )
-from phframe.backends.fast_.noting import drag_force, note_contacts, note_force, note_free, refuse_speed, strength
+from phframe.backends.fast_.noting import note_contacts, note_force, note_free, refuse_speed, strength
 from phframe.backends.fast_.stepping import LEVER, free_time, place, rest, step
 
 TINY = 1e-12

@@ -22,10 +22,8 @@ from phframe.backends.fast_.layout import (
     FORCE,
     FORCE_CAUSE,
     FORCE_LIMIT,
-    HELD,
     IMPULSE_N,
     LARGEST_FORCE,
-    MOST_FRICTION,
     NO_CAUSE,
     PHASE,
     RADIUS,
@@ -42,7 +40,6 @@ from phframe.backends.fast_.layout import (
     FastPath,
     FastRun,
     FastWorld,
-    X,
 )
 from phframe.core import FORCE_WINDOW
 
@@ -103,13 +100,6 @@ def note_free(run: FastRun, force: float, time: float) -> None:
     figures[WINDOW] = (place + 1) % WINDOW_STEPS
     if time > 0.0:
         figures[LARGEST_FORCE] = max(figures[LARGEST_FORCE], force)
-
-
-@compiled
-def drag_force(world: FastWorld) -> float:
-    """What it takes to move what is held along the board (N)."""
-    held = int(world.arm[HELD])
-    return float(world.bodies[held, MOST_FRICTION]) if held >= 0 and world.bodies[held, X] >= 0.0 else 0.0
 
 
 @compiled

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 from phframe.backends.fast_.compiled import compiled
+from phframe.backends.fast_.fingers import drag_force
 from phframe.backends.fast_.layout import (
     AWAKE,
     BODY_A,
@@ -198,9 +199,7 @@ def _drive(world: FastWorld, most: float, h: float, vx: float, vy: float) -> flo
 def _drag(world: FastWorld, h: float, turn: float) -> float:
     """Friction of what is held with the board, as far as the board goes."""
     arm, tip, held = world.arm, len(world.bodies) - 2, int(world.arm[HELD])
-    mass, most = 1.0 / world.bodies[tip, BY_MASS], world.bodies[held, MOST_FRICTION] * h
-    if world.bodies[held, X] < 0.0:
-        most = 0.0
+    mass, most = 1.0 / world.bodies[tip, BY_MASS], drag_force(world) * h
     vx = world.bodies[tip, VX] - turn * (world.bodies[held, Y] - arm[BODY_Y])
     vy = world.bodies[tip, VY] + turn * (world.bodies[held, X] - arm[BODY_X])
     px, py = arm[DRAG_X] * h - mass * vx, arm[DRAG_Y] * h - mass * vy

@@ -8,6 +8,7 @@ from phframe.backends.fast_.clearance import clearance
 from phframe.backends.fast_.compiled import compiled
 from phframe.backends.fast_.contacts import find_contacts
 from phframe.backends.fast_.distances import lay_arm
+from phframe.backends.fast_.fingers import drag_force
 from phframe.backends.fast_.layout import (
     ARM_VX,
     ARM_VY,
@@ -90,8 +91,8 @@ def step(world: FastWorld, h: float, x: float, y: float, yaw: float, opening: fl
     turn, widening = (yaw - arm[YAW]) / h, (opening - arm[OPENING]) / h
     vx = (x - arm[CARRIER_X] + CATCH_UP * (arm[CARRIER_X] - arm[BODY_X])) / h
     vy = (y - arm[CARRIER_Y] + CATCH_UP * (arm[CARRIER_Y] - arm[BODY_Y])) / h
-    if arm[SATURATED] == 0.0:
-        arm[ARM_VX], arm[ARM_VY] = vx, vy  # the drive need not accelerate the arm itself
+    if arm[SATURATED] == 0.0 and drag_force(world) < force:
+        arm[ARM_VX], arm[ARM_VY] = vx, vy  # the drive need not accelerate the arm itself, nor what it can carry
     world.bodies[tip, VX], world.bodies[tip, VY], world.bodies[tip, SPIN] = arm[ARM_VX], arm[ARM_VY], 0.0
     fastest = math.hypot(vx, vy) + abs(turn) * LEVER + abs(widening) / 2.0 + _fastest(world)
     lay_arm(world)
