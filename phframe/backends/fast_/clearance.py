@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
-
-from phframe.backends.fast_.compiled import compiled
+from phframe.backends.fast_.compiled import compiled, length
 from phframe.backends.fast_.distances import FAR, to_part, to_wall
 from phframe.backends.fast_.layout import (
     CORNER_X,
@@ -45,12 +43,12 @@ def clearance(world: FastWorld) -> float:
 def _to_object(world: FastWorld, row: int, held: int, best: float) -> float:
     x, y, radius = world.bodies[row, X], world.bodies[row, Y], world.bodies[row, RADIUS]
     for part in range(len(world.parts)):
-        around = math.hypot(x - world.parts[part, MIDDLE_X], y - world.parts[part, MIDDLE_Y]) - world.parts[part, REACH]
+        around = length(x - world.parts[part, MIDDLE_X], y - world.parts[part, MIDDLE_Y]) - world.parts[part, REACH]
         if around - radius < best:
             distance, _, _ = to_part(world, part, x, y)
             best = min(best, distance - radius)
     if held >= 0:
-        apart = math.hypot(x - world.bodies[held, X], y - world.bodies[held, Y])
+        apart = length(x - world.bodies[held, X], y - world.bodies[held, Y])
         best = min(best, apart - radius - world.bodies[held, RADIUS])
     return best
 

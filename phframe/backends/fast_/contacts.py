@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from phframe.backends.fast_.compiled import compiled
+from phframe.backends.fast_.compiled import compiled, length
 from phframe.backends.fast_.distances import to_part, to_wall
 from phframe.backends.fast_.layout import (
     ARM_FRICTION,
@@ -104,7 +104,7 @@ def _contacts_of_object(
         dx, dy, together = world.bodies[other, X] - x, world.bodies[other, Y] - y, radius + world.bodies[other, RADIUS]
         if dx * dx + dy * dy >= (together + reach) ** 2:
             continue
-        apart = math.hypot(dx, dy)
+        apart = length(dx, dy)
         nx, ny = (dx / apart, dy / apart) if apart > 0.0 else (1.0, 0.0)
         pair = (row, other, row, other)
         found = _add(
@@ -132,7 +132,7 @@ def _contacts_of_arm(world: FastWorld, h: float, reach: float, turn: float, open
         x, y, radius = world.bodies[row, X], world.bodies[row, Y], world.bodies[row, RADIUS]
         for part in range(parts):
             if (
-                math.hypot(x - world.parts[part, MIDDLE_X], y - world.parts[part, MIDDLE_Y])
+                length(x - world.parts[part, MIDDLE_X], y - world.parts[part, MIDDLE_Y])
                 - world.parts[part, REACH]
                 - radius
                 >= reach
@@ -164,7 +164,7 @@ def _held_to_object(world: FastWorld, h: float, reach: float, turn: float, row: 
     held, count = int(world.arm[HELD]), len(world.bodies) - 2
     hx, hy = world.bodies[held, X], world.bodies[held, Y]
     dx, dy = world.bodies[row, X] - hx, world.bodies[row, Y] - hy
-    apart, own = math.hypot(dx, dy), world.bodies[held, RADIUS]
+    apart, own = length(dx, dy), world.bodies[held, RADIUS]
     gap = apart - own - world.bodies[row, RADIUS]
     if gap >= reach:
         return found

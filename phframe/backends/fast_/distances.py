@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from phframe.backends.fast_.compiled import compiled
+from phframe.backends.fast_.compiled import compiled, length
 from phframe.backends.fast_.layout import (
     BODY_X,
     BODY_Y,
@@ -75,7 +75,7 @@ def to_part(world: FastWorld, part: int, x: float, y: float) -> Measured:
     for corner, sign in ((edge, 1.0), (following, -1.0)):
         dx, dy = x - world.corners[corner, CORNER_X], y - world.corners[corner, CORNER_Y]
         if sign * (-ny * dx + nx * dy) < 0.0:
-            distance = math.hypot(dx, dy)
+            distance = length(dx, dy)
             return distance, dx / distance, dy / distance
     return best, nx, ny
 
@@ -95,7 +95,7 @@ def to_wall(world: FastWorld, wall: int, x: float, y: float) -> Measured:
 def _to_box(left: float, low: float, right: float, high: float, x: float, y: float) -> Measured:
     nearest_x, nearest_y = min(max(x, left), right), min(max(y, low), high)
     dx, dy = x - nearest_x, y - nearest_y
-    distance = math.hypot(dx, dy)
+    distance = length(dx, dy)
     if distance > 0.0:
         return distance, dx / distance, dy / distance
     best, nx, ny = x - left, -1.0, 0.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from phframe.backends.fast_.compiled import compiled
+from phframe.backends.fast_.compiled import compiled, length
 from phframe.backends.fast_.fingers import drag_force, forget_between, grip, note_between, told_opening
 from phframe.backends.fast_.layout import (
     ARM_VX,
@@ -59,6 +59,7 @@ from phframe.backends.fast_.layout import (
     STALL_LAG,
     STALLED,
     STEP,
+    STEPS,
     TIME,
     VX,
     VY,
@@ -143,7 +144,7 @@ def brake_time(path: FastPath, run: FastRun, leg: int) -> float:
     """How long the arm brakes at the end of a leg (s): with a trapezoid's flank, at the leg's length and duration."""
     duration = path.legs[leg + 1, AT] - path.legs[leg, AT]
     braking = path.limits[BRAKING]
-    way = math.hypot(path.legs[leg + 1, AT_X] - run.figures[FROM_X], path.legs[leg + 1, AT_Y] - run.figures[FROM_Y])
+    way = length(path.legs[leg + 1, AT_X] - run.figures[FROM_X], path.legs[leg + 1, AT_Y] - run.figures[FROM_Y])
     if braking == 0.0 or way == 0.0:
         return 0.0
     rest_of = duration**2 - 2.0 * way / braking
@@ -166,7 +167,7 @@ def progress(path: FastPath, run: FastRun, leg: int, time: float) -> float:
 def leg_speed(path: FastPath, run: FastRun, leg: int) -> float:
     """How fast any point of the arm moves that matters to a step (m/s)."""
     figures = run.figures
-    way = math.hypot(path.legs[leg + 1, AT_X] - figures[FROM_X], path.legs[leg + 1, AT_Y] - figures[FROM_Y])
+    way = length(path.legs[leg + 1, AT_X] - figures[FROM_X], path.legs[leg + 1, AT_Y] - figures[FROM_Y])
     way += LEVER * abs(path.legs[leg + 1, AT_YAW] - figures[FROM_YAW])
     way += abs(path.legs[leg + 1, AT_OPENING] - path.legs[leg, AT_OPENING]) / 2.0
     return float(way / (path.legs[leg + 1, AT] - path.legs[leg, AT] - brake_time(path, run, leg) / 2.0))
@@ -177,7 +178,7 @@ def _longest_step(world: FastWorld, speed: float) -> float:
     """So that nothing moves farther in a step than it may (s)."""
     fastest = speed
     for row in range(len(world.bodies) - 2):
-        fastest = max(fastest, math.hypot(world.bodies[row, VX], world.bodies[row, VY]) * SHORTEST)
+        fastest = max(fastest, length(world.bodies[row, VX], world.bodies[row, VY]) * SHORTEST)
     return float(min(world.arm[LONGEST_STEP], world.arm[STEP] / fastest) if fastest > 0.0 else world.arm[LONGEST_STEP])
 
 
@@ -207,7 +208,7 @@ def _opening_at(world: FastWorld, path: FastPath, leg: int, time: float) -> floa
 def _jump(world: FastWorld, path: FastPath, run: FastRun, leg: int, speed: float, left: float, longest: float) -> bool:
     """While nothing moves, go as far as the arm meets nothing, if that is farther than a step."""
     figures, arm = run.figures, world.arm
-    lag = math.hypot(arm[CARRIER_X] - arm[BODY_X], arm[CARRIER_Y] - arm[BODY_Y])
+    lag = length(arm[CARRIER_X] - arm[BODY_X], arm[CARRIER_Y] - arm[BODY_Y])
     force = drag_force(world) if speed > 0.0 else 0.0
     if arm[RESTING] == 0.0 or lag > ON_COURSE or force >= strength(path):
         return False
@@ -243,7 +244,7 @@ def _whirl(world: FastWorld, path: FastPath, run: FastRun, leg: int) -> float:
         return 0.0
     farthest = 0.0
     for row in range(len(world.corners)):
-        farthest = max(farthest, math.hypot(world.corners[row, OWN_X], world.corners[row, OWN_Y]))
+        farthest = max(farthest, length(world.corners[row, OWN_X], world.corners[row, OWN_Y]))
     duration = path.legs[leg + 1, AT] - path.legs[leg, AT] - brake_time(path, run, leg) / 2.0
     return float((farthest + 0.1) * turn / duration)
 
@@ -276,7 +277,7 @@ def _note(world: FastWorld, path: FastPath, run: FastRun, found: int, h: float, 
     rest(world)
     note_contacts(world, path, run, found, leg, figures[TIME] - h / 2.0)
     note_force(world, path, run, h)
-    lag = math.hypot(arm[CARRIER_X] - arm[BODY_X], arm[CARRIER_Y] - arm[BODY_Y])
+    lag = length(arm[CARRIER_X] - arm[BODY_X], arm[CARRIER_Y] - arm[BODY_Y])
     figures[LARGEST_LAG] = max(figures[LARGEST_LAG], lag)
     if arm[SATURATED] == 1.0 and lag > world.arm[STALL_LAG] and figures[STAGE] == FOLLOWING:
         figures[STALLED] = 1.0 if figures[CAUSE] == NO_CAUSE else 0.0
@@ -297,6 +298,7 @@ def _halt(world: FastWorld, path: FastPath, run: FastRun) -> None:
     """Stand still, and where the arm could not follow, forget where it should have been."""
     figures, arm = run.figures, world.arm
     arm[ARM_VX] = arm[ARM_VY] = arm[SATURATED] = arm[DRIVE_X] = arm[DRIVE_Y] = 0.0
+    arm[STEPS] += 1.0  # no contact presses on, as those of the last step would
     if figures[STALLED] == 1.0 or figures[CAUSE] != NO_CAUSE:
         arm[CARRIER_X], arm[CARRIER_Y], arm[CARRIER_YAW] = arm[BODY_X], arm[BODY_Y], arm[YAW]
     figures[FOLLOWED] = figures[SETTLE_BEGAN] = figures[TIME]
@@ -326,7 +328,7 @@ def _settle(world: FastWorld, path: FastPath, run: FastRun) -> None:
 def _calm(world: FastWorld, speed: float) -> bool:
     for row in range(len(world.bodies) - 2):
         of_rim = abs(world.bodies[row, SPIN]) * world.bodies[row, RADIUS]
-        if math.hypot(world.bodies[row, VX], world.bodies[row, VY]) + of_rim >= speed:
+        if length(world.bodies[row, VX], world.bodies[row, VY]) + of_rim >= speed:
             return False
     return True
 

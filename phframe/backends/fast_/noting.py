@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
-
 from phframe.backends.contract import TOP_SPEED
-from phframe.backends.fast_.compiled import compiled
+from phframe.backends.fast_.compiled import compiled, length
 from phframe.backends.fast_.layout import (
     BODY_A,
     BODY_B,
@@ -77,7 +75,7 @@ def note_force(world: FastWorld, path: FastPath, run: FastRun, h: float) -> None
     """Note the mean of the drive's force, and whether that ends the motion."""
     figures, window = run.figures, run.window
     place = int(figures[WINDOW])
-    window[place, 0], window[place, 1] = h, h * math.hypot(world.arm[DRIVE_X], world.arm[DRIVE_Y])
+    window[place, 0], window[place, 1] = h, h * length(world.arm[DRIVE_X], world.arm[DRIVE_Y])
     figures[WINDOW] = (place + 1) % WINDOW_STEPS
     left, impulse = FORCE_WINDOW, 0.0
     for back in range(WINDOW_STEPS):
@@ -113,7 +111,7 @@ def refuse_speed(world: FastWorld, run: FastRun) -> None:
     """End where a body is nowhere or faster than physics allows."""
     for row in range(len(world.bodies) - 2):
         speed = (
-            math.hypot(world.bodies[row, VX], world.bodies[row, VY])
+            length(world.bodies[row, VX], world.bodies[row, VY])
             + abs(world.bodies[row, SPIN]) * world.bodies[row, RADIUS]
         )
         if not speed < TOP_SPEED:

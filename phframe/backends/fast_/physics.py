@@ -64,7 +64,7 @@ class FastOptions(Options):
     object_friction: Annotated[float, Field(ge=0.0, le=2.0)] = 0.2
     arm_friction: Annotated[float, Field(ge=0.0, le=2.0)] = 0.3
     arm_mass: Annotated[float, Field(gt=0.0, le=100.0)] = 4.0
-    arm_acceleration: Annotated[float, Field(gt=0.0, le=1000.0)] | None = 10.0
+    arm_acceleration: Annotated[float, Field(gt=0.0, le=1000.0)] | None = None
     standing_radius: Annotated[float, Field(gt=0.0, le=1.0)] = 2.0 / 3.0
     stall_lag: Annotated[float, Field(gt=0.0, le=0.1)] = 0.005
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from phframe.backends.fast_.compiled import compiled
+from phframe.backends.fast_.compiled import compiled, length
 from phframe.backends.fast_.fingers import drag_force
 from phframe.backends.fast_.layout import (
     AWAKE,
@@ -56,7 +56,7 @@ from phframe.backends.fast_.layout import (
     Y,
 )
 
-CONVERGED = 1e-6
+CONVERGED = 1e-5
 """No velocity (m/s) changes by more in the last iteration."""
 
 
@@ -185,7 +185,7 @@ def _drive(world: FastWorld, most: float, h: float, vx: float, vy: float) -> flo
     mass = 1.0 / world.bodies[tip, BY_MASS]
     px = arm[DRIVE_X] * h + mass * (vx - world.bodies[tip, VX])
     py = arm[DRIVE_Y] * h + mass * (vy - world.bodies[tip, VY])
-    size = math.hypot(px, py)
+    size = length(px, py)
     if size > most:
         px, py = px * most / size, py * most / size
     dx, dy = (px - arm[DRIVE_X] * h) / mass, (py - arm[DRIVE_Y] * h) / mass
@@ -203,7 +203,7 @@ def _drag(world: FastWorld, h: float, turn: float) -> float:
     vx = world.bodies[tip, VX] - turn * (world.bodies[held, Y] - arm[BODY_Y])
     vy = world.bodies[tip, VY] + turn * (world.bodies[held, X] - arm[BODY_X])
     px, py = arm[DRAG_X] * h - mass * vx, arm[DRAG_Y] * h - mass * vy
-    size = math.hypot(px, py)
+    size = length(px, py)
     if size > most:
         px, py = px * most / size, py * most / size
     dx, dy = (px - arm[DRAG_X] * h) / mass, (py - arm[DRAG_Y] * h) / mass

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from phframe.backends.fast_.clearance import clearance
-from phframe.backends.fast_.compiled import compiled
+from phframe.backends.fast_.compiled import compiled, length
 from phframe.backends.fast_.contacts import find_contacts
 from phframe.backends.fast_.distances import lay_arm
 from phframe.backends.fast_.fingers import drag_force
@@ -94,7 +94,7 @@ def step(world: FastWorld, h: float, x: float, y: float, yaw: float, opening: fl
     if arm[SATURATED] == 0.0 and drag_force(world) < force:
         arm[ARM_VX], arm[ARM_VY] = vx, vy  # the drive need not accelerate the arm itself, nor what it can carry
     world.bodies[tip, VX], world.bodies[tip, VY], world.bodies[tip, SPIN] = arm[ARM_VX], arm[ARM_VY], 0.0
-    fastest = math.hypot(vx, vy) + abs(turn) * LEVER + abs(widening) / 2.0 + _fastest(world)
+    fastest = length(vx, vy) + abs(turn) * LEVER + abs(widening) / 2.0 + _fastest(world)
     lay_arm(world)
     found = find_contacts(world, h, fastest * h + SLACK, turn, widening)
     _keep_speeds(world)
@@ -105,7 +105,7 @@ def step(world: FastWorld, h: float, x: float, y: float, yaw: float, opening: fl
     arm[OPENING] = opening
     _separate(world, found, h)
     carry(world)
-    arm[SATURATED] = 1.0 if math.hypot(arm[DRIVE_X], arm[DRIVE_Y]) >= FULL * force else 0.0
+    arm[SATURATED] = 1.0 if length(arm[DRIVE_X], arm[DRIVE_Y]) >= FULL * force else 0.0
     return found
 
 
@@ -114,7 +114,7 @@ def _fastest(world: FastWorld) -> float:
     """Speed of the fastest object (m/s)."""
     best = 0.0
     for row in range(len(world.bodies) - 2):
-        best = max(best, math.hypot(world.bodies[row, VX], world.bodies[row, VY]))
+        best = max(best, length(world.bodies[row, VX], world.bodies[row, VY]))
     return best
 
 
@@ -145,14 +145,14 @@ def _move_objects(world: FastWorld, found: int, h: float) -> None:
 @compiled
 def _move(world: FastWorld, row: int, h: float) -> None:
     bodies, lever = world.bodies, world.bodies[row, FRICTION_LEVER]
-    if math.hypot(bodies[row, VX], bodies[row, VY]) + abs(bodies[row, SPIN]) * bodies[row, RADIUS] < STILL:
+    if length(bodies[row, VX], bodies[row, VY]) + abs(bodies[row, SPIN]) * bodies[row, RADIUS] < STILL:
         bodies[row, VX] = bodies[row, VY] = bodies[row, SPIN] = 0.0
     first, last, slide = 0.0, 1.0, h
     if bodies[row, AWAKE] == 1.0:
         first = last = 0.5
         if bodies[row, VX] == 0.0 and bodies[row, VY] == 0.0 and bodies[row, SPIN] == 0.0:
-            sliding = math.hypot(bodies[row, VX_BEFORE], bodies[row, VY_BEFORE])
-            speed = math.hypot(sliding, bodies[row, SPIN_BEFORE] * lever)
+            sliding = length(bodies[row, VX_BEFORE], bodies[row, VY_BEFORE])
+            speed = length(sliding, bodies[row, SPIN_BEFORE] * lever)
             slide = min(h, speed * bodies[row, MASS] / max(bodies[row, MOST_FRICTION], 1e-9))
     bodies[row, X] += (first * bodies[row, VX_BEFORE] + last * bodies[row, VX]) * slide
     bodies[row, Y] += (first * bodies[row, VY_BEFORE] + last * bodies[row, VY]) * slide
