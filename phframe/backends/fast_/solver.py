@@ -55,6 +55,7 @@ from phframe.backends.fast_.layout import (
     X,
     Y,
 )
+from phframe.core import FloatArray
 
 CONVERGED = 1e-5
 """No velocity (m/s) changes by more in the last iteration."""
@@ -73,16 +74,17 @@ def solve(world: FastWorld, found: int, h: float, force: float, vx: float, vy: f
         vy: Likewise.
         turn: Of the arm (rad/s).
     """
+    bodies, rows = world.bodies, world.rows
     _warm_start(world, found, h)
     for _ in range(int(world.arm[ITERATIONS])):
         change = _drive(world, h * force, h, vx, vy)
         if world.arm[HELD] >= 0.0:
             change = max(change, _drag(world, h, turn))
-        for row in range(len(world.bodies) - 2):
-            if world.bodies[row, AWAKE]:
-                change = max(change, _floor(world, row, h))
+        for row in range(len(bodies) - 2):
+            if bodies[row, AWAKE]:
+                change = max(change, _floor(bodies, row, h))
         for contact in range(found):
-            change = max(change, _contact(world, contact))
+            change = max(change, _contact(bodies, rows, contact))
         if change < CONVERGED:
             break
     _remember(world, found, h)
@@ -91,21 +93,20 @@ def solve(world: FastWorld, found: int, h: float, force: float, vx: float, vy: f
 @compiled
 def _warm_start(world: FastWorld, found: int, h: float) -> None:
     """Begin with the forces of the last step."""
-    arm, tip = world.arm, len(world.bodies) - 2
-    share = world.bodies[tip, BY_MASS] * h
-    world.bodies[tip, VX] += (arm[DRIVE_X] + arm[DRAG_X]) * share
-    world.bodies[tip, VY] += (arm[DRIVE_Y] + arm[DRAG_Y]) * share
-    for row in range(len(world.bodies) - 2):
-        if world.bodies[row, AWAKE]:
-            world.bodies[row, VX] += world.bodies[row, FLOOR_X] * h * world.bodies[row, BY_MASS]
-            world.bodies[row, VY] += world.bodies[row, FLOOR_Y] * h * world.bodies[row, BY_MASS]
-            world.bodies[row, SPIN] += world.bodies[row, FLOOR_TORQUE] * h * world.bodies[row, BY_INERTIA]
+    arm, bodies, rows, tip = world.arm, world.bodies, world.rows, len(world.bodies) - 2
+    share = bodies[tip, BY_MASS] * h
+    bodies[tip, VX] += (arm[DRIVE_X] + arm[DRAG_X]) * share
+    bodies[tip, VY] += (arm[DRIVE_Y] + arm[DRAG_Y]) * share
+    for row in range(tip):
+        if bodies[row, AWAKE]:
+            bodies[row, VX] += bodies[row, FLOOR_X] * h * bodies[row, BY_MASS]
+            bodies[row, VY] += bodies[row, FLOOR_Y] * h * bodies[row, BY_MASS]
+            bodies[row, SPIN] += bodies[row, FLOOR_TORQUE] * h * bodies[row, BY_INERTIA]
         else:
-            world.bodies[row, FLOOR_X] = world.bodies[row, FLOOR_Y] = world.bodies[row, FLOOR_TORQUE] = 0.0
-    rows = world.rows
+            bodies[row, FLOOR_X] = bodies[row, FLOOR_Y] = bodies[row, FLOOR_TORQUE] = 0.0
     for contact in range(found):
         if rows[contact, IMPULSE_N] != 0.0 or rows[contact, IMPULSE_T] != 0.0:
-            _push(world, contact, rows[contact, IMPULSE_N], rows[contact, IMPULSE_T])
+            _push(bodies, rows, contact, rows[contact, IMPULSE_N], rows[contact, IMPULSE_T])
 
 
 @compiled
@@ -122,44 +123,42 @@ def _remember(world: FastWorld, found: int, h: float) -> None:
 
 
 @compiled
-def _push(world: FastWorld, contact: int, normal: float, tangent: float) -> None:
+def _push(bodies: FloatArray, rows: FloatArray, contact: int, normal: float, tangent: float) -> None:
     """Apply an impulse of a contact (N s), along its normal and across."""
-    rows = world.rows
     a, b = int(rows[contact, BODY_A]), int(rows[contact, BODY_B])
     px = rows[contact, NORMAL_X] * normal - rows[contact, NORMAL_Y] * tangent
     py = rows[contact, NORMAL_Y] * normal + rows[contact, NORMAL_X] * tangent
-    world.bodies[a, VX] -= px * world.bodies[a, BY_MASS]
-    world.bodies[a, VY] -= py * world.bodies[a, BY_MASS]
-    world.bodies[a, SPIN] -= rows[contact, LEVER_A] * tangent * world.bodies[a, BY_INERTIA]
-    world.bodies[b, VX] += px * world.bodies[b, BY_MASS]
-    world.bodies[b, VY] += py * world.bodies[b, BY_MASS]
-    world.bodies[b, SPIN] -= rows[contact, LEVER_B] * tangent * world.bodies[b, BY_INERTIA]
+    bodies[a, VX] -= px * bodies[a, BY_MASS]
+    bodies[a, VY] -= py * bodies[a, BY_MASS]
+    bodies[a, SPIN] -= rows[contact, LEVER_A] * tangent * bodies[a, BY_INERTIA]
+    bodies[b, VX] += px * bodies[b, BY_MASS]
+    bodies[b, VY] += py * bodies[b, BY_MASS]
+    bodies[b, SPIN] -= rows[contact, LEVER_B] * tangent * bodies[b, BY_INERTIA]
 
 
 @compiled
-def _contact(world: FastWorld, contact: int) -> float:
+def _contact(bodies: FloatArray, rows: FloatArray, contact: int) -> float:
     """Solve one contact; the change of velocity (m/s)."""
-    rows = world.rows
     a, b = int(rows[contact, BODY_A]), int(rows[contact, BODY_B])
-    dx, dy = world.bodies[b, VX] - world.bodies[a, VX], world.bodies[b, VY] - world.bodies[a, VY]
+    dx, dy = bodies[b, VX] - bodies[a, VX], bodies[b, VY] - bodies[a, VY]
     away = dx * rows[contact, NORMAL_X] + dy * rows[contact, NORMAL_Y] + rows[contact, GIVEN_N]
     normal = max(0.0, rows[contact, IMPULSE_N] + (rows[contact, LEAST] - away) * rows[contact, MASS_N])
     across = dy * rows[contact, NORMAL_X] - dx * rows[contact, NORMAL_Y] + rows[contact, GIVEN_T]
-    across -= rows[contact, LEVER_A] * world.bodies[a, SPIN] + rows[contact, LEVER_B] * world.bodies[b, SPIN]
+    across -= rows[contact, LEVER_A] * bodies[a, SPIN] + rows[contact, LEVER_B] * bodies[b, SPIN]
     most = rows[contact, FRICTION] * normal
     tangent = min(most, max(-most, rows[contact, IMPULSE_T] - across * rows[contact, MASS_T]))
     by_normal, by_tangent = normal - rows[contact, IMPULSE_N], tangent - rows[contact, IMPULSE_T]
     if by_normal == 0.0 and by_tangent == 0.0:
         return 0.0
     rows[contact, IMPULSE_N], rows[contact, IMPULSE_T] = normal, tangent
-    _push(world, contact, by_normal, by_tangent)
+    _push(bodies, rows, contact, by_normal, by_tangent)
     return float(max(abs(by_normal) / rows[contact, MASS_N], abs(by_tangent) / rows[contact, MASS_T]))
 
 
 @compiled
-def _floor(world: FastWorld, row: int, h: float) -> float:
+def _floor(bodies: FloatArray, row: int, h: float) -> float:
     """Friction with the board: drive the velocity to 0 as far as the limit surface allows."""
-    bodies, lever, mass = world.bodies, world.bodies[row, FRICTION_LEVER], world.bodies[row, MASS]
+    lever, mass = bodies[row, FRICTION_LEVER], bodies[row, MASS]
     turning = min(bodies[row, INERTIA], mass * lever * lever)
     fx = bodies[row, FLOOR_X] - mass * bodies[row, VX] / h
     fy = bodies[row, FLOOR_Y] - mass * bodies[row, VY] / h
