@@ -34,7 +34,7 @@ def clearance(world: FastWorld) -> float:
             best = _to_object(world, row, held, best)
     if held >= 0:
         for wall in range(3):
-            distance, _, _ = to_wall(world, wall, world.bodies[held, X], world.bodies[held, Y])
+            distance, _, _ = to_wall(world.arm, wall, world.bodies[held, X], world.bodies[held, Y])
             best = min(best, distance - world.bodies[held, RADIUS])
     return best
 
@@ -45,7 +45,7 @@ def _to_object(world: FastWorld, row: int, held: int, best: float) -> float:
     for part in range(len(world.parts)):
         around = length(x - world.parts[part, MIDDLE_X], y - world.parts[part, MIDDLE_Y]) - world.parts[part, REACH]
         if around - radius < best:
-            distance, _, _ = to_part(world, part, x, y)
+            distance, _, _ = to_part(world.parts, world.corners, part, x, y)
             best = min(best, distance - radius)
     if held >= 0:
         apart = length(x - world.bodies[held, X], y - world.bodies[held, Y])
@@ -57,12 +57,12 @@ def _to_object(world: FastWorld, row: int, held: int, best: float) -> float:
 def _part_to_walls(world: FastWorld, part: int, best: float) -> float:
     """Of a part's corners to the walls, and of the walls' corners at the mouth to the part."""
     for wall in range(3):
-        distance, _, _ = to_wall(world, wall, world.parts[part, MIDDLE_X], world.parts[part, MIDDLE_Y])
+        distance, _, _ = to_wall(world.arm, wall, world.parts[part, MIDDLE_X], world.parts[part, MIDDLE_Y])
         if distance - world.parts[part, REACH] < best:
             for row in range(int(world.parts[part, FIRST]), int(world.parts[part, END])):
-                distance, _, _ = to_wall(world, wall, world.corners[row, CORNER_X], world.corners[row, CORNER_Y])
+                distance, _, _ = to_wall(world.arm, wall, world.corners[row, CORNER_X], world.corners[row, CORNER_Y])
                 best = min(best, distance)
     for y in (0.0, world.arm[WIDTH]):
-        distance, _, _ = to_part(world, part, 0.0, y)
+        distance, _, _ = to_part(world.parts, world.corners, part, 0.0, y)
         best = min(best, distance)
     return best

@@ -54,6 +54,7 @@ from phframe.backends.fast_.layout import (
     X,
     Y,
 )
+from phframe.core import FloatArray
 
 Pair = tuple[int, int, int, int]
 """Body a, body b, and their numbers as what touches."""
@@ -115,7 +116,7 @@ def _contacts_of_object(
             world.bodies[waiting, ORDER] = other
             waiting += 1
     for wall in range(3):
-        gap, nx, ny = to_wall(world, wall, x, y)
+        gap, nx, ny = to_wall(world.arm, wall, x, y)
         if gap - radius < reach:
             pair = (count + 1, row, count + len(world.parts) + 1 + wall, row)
             found = _add(world, h, found, pair, (gap - radius, nx, ny), (0.0, radius), (0.0, 0.0))
@@ -138,10 +139,12 @@ def _contacts_of_arm(world: FastWorld, h: float, reach: float, turn: float, open
                 >= reach
             ):
                 continue
-            distance, nx, ny = to_part(world, part, x, y)
+            distance, nx, ny = to_part(world.parts, world.corners, part, x, y)
             if distance - radius >= reach:
                 continue
-            given = _given(world, turn, world.parts[part, SIDE] * opening / 2.0, x - nx * distance, y - ny * distance)
+            given = _given(
+                world.arm, turn, world.parts[part, SIDE] * opening / 2.0, x - nx * distance, y - ny * distance
+            )
             pair = (count, row, count + part, row)
             found = _add(world, h, found, pair, (distance - radius, nx, ny), (0.0, radius), (-given[0], -given[1]))
             world.bodies[row, AWAKE] = max(world.bodies[row, AWAKE], 1)
@@ -153,10 +156,10 @@ def _contacts_of_arm(world: FastWorld, h: float, reach: float, turn: float, open
 
 
 @compiled
-def _given(world: FastWorld, turn: float, aside: float, x: float, y: float) -> tuple[float, float]:
+def _given(arm: FloatArray, turn: float, aside: float, x: float, y: float) -> tuple[float, float]:
     """The velocity (m/s) that turning and opening give to a point of the arm."""
-    cosine, sine = math.cos(world.arm[YAW]), math.sin(world.arm[YAW])
-    return -turn * (y - world.arm[BODY_Y]) - sine * aside, turn * (x - world.arm[BODY_X]) + cosine * aside
+    cosine, sine = math.cos(arm[YAW]), math.sin(arm[YAW])
+    return -turn * (y - arm[BODY_Y]) - sine * aside, turn * (x - arm[BODY_X]) + cosine * aside
 
 
 @compiled
@@ -169,7 +172,7 @@ def _held_to_object(world: FastWorld, h: float, reach: float, turn: float, row: 
     if gap >= reach:
         return found
     nx, ny = (dx / apart, dy / apart) if apart > 0.0 else (1.0, 0.0)
-    given = _given(world, turn, 0.0, hx + nx * own, hy + ny * own)
+    given = _given(world.arm, turn, 0.0, hx + nx * own, hy + ny * own)
     world.bodies[row, AWAKE] = max(world.bodies[row, AWAKE], 1)
     pair = (count, row, count + len(world.parts), row)
     return _add(world, h, found, pair, (gap, nx, ny), (0.0, world.bodies[row, RADIUS]), (-given[0], -given[1]))
@@ -180,9 +183,9 @@ def _held_to_walls(world: FastWorld, h: float, reach: float, turn: float, found:
     held, count, parts = int(world.arm[HELD]), len(world.bodies) - 2, len(world.parts)
     x, y, radius = world.bodies[held, X], world.bodies[held, Y], world.bodies[held, RADIUS]
     for wall in range(3):
-        distance, nx, ny = to_wall(world, wall, x, y)
+        distance, nx, ny = to_wall(world.arm, wall, x, y)
         if distance - radius < reach:
-            given = _given(world, turn, 0.0, x - nx * radius, y - ny * radius)
+            given = _given(world.arm, turn, 0.0, x - nx * radius, y - ny * radius)
             pair = (count + 1, count, count + parts + 1 + wall, count + parts)
             found = _add(world, h, found, pair, (distance - radius, nx, ny), (0.0, 0.0), given)
     return found
@@ -193,21 +196,21 @@ def _part_to_walls(world: FastWorld, h: float, reach: float, turn: float, openin
     """A part's corners on walls, and the walls' corners at the mouth on a part. Walls give way to nothing: not remembered."""
     count, aside = len(world.bodies) - 2, world.parts[part, SIDE] * opening / 2.0
     for wall in range(3):
-        middle, _, _ = to_wall(world, wall, world.parts[part, MIDDLE_X], world.parts[part, MIDDLE_Y])
+        middle, _, _ = to_wall(world.arm, wall, world.parts[part, MIDDLE_X], world.parts[part, MIDDLE_Y])
         if middle - world.parts[part, REACH] >= reach:
             continue
         for corner in range(int(world.parts[part, FIRST]), int(world.parts[part, END])):
             x, y = world.corners[corner, CORNER_X], world.corners[corner, CORNER_Y]
-            measured = to_wall(world, wall, x, y)
+            measured = to_wall(world.arm, wall, x, y)
             if measured[0] < reach:
-                given = _given(world, turn, aside, x, y)
+                given = _given(world.arm, turn, aside, x, y)
                 pair = (count + 1, count, -1 - wall, -1 - part)
                 found = _add(world, h, found, pair, measured, (0.0, 0.0), given)
     for wall in range(2):
         y = wall * world.arm[WIDTH]
-        distance, nx, ny = to_part(world, part, 0.0, y)
+        distance, nx, ny = to_part(world.parts, world.corners, part, 0.0, y)
         if distance < reach:
-            given = _given(world, turn, aside, -nx * distance, y - ny * distance)
+            given = _given(world.arm, turn, aside, -nx * distance, y - ny * distance)
             pair = (count + 1, count, -1 - wall, -1 - part)
             found = _add(world, h, found, pair, (distance, -nx, -ny), (0.0, 0.0), given)
     return found
@@ -238,7 +241,7 @@ def _add(
     )
     rows[found, LEVER_A], rows[found, LEVER_B] = levers
     rows[found, GIVEN_N], rows[found, GIVEN_T] = nx * given[0] + ny * given[1], nx * given[1] - ny * given[0]
-    rows[found, FRICTION] = _friction(world, count, a)
+    rows[found, FRICTION] = _friction(world.arm, count, a)
     rows[found, LEAST] = -gap / h if gap > 0.0 else 0.0
     mass = world.bodies[a, BY_MASS] + world.bodies[b, BY_MASS]
     spin = levers[0] ** 2 * world.bodies[a, BY_INERTIA] + levers[1] ** 2 * world.bodies[b, BY_INERTIA]
@@ -254,7 +257,7 @@ def _add(
 
 
 @compiled
-def _friction(world: FastWorld, count: int, a: int) -> float:
+def _friction(arm: FloatArray, count: int, a: int) -> float:
     if a == count + 1:
-        return float(world.arm[WALL_FRICTION])
-    return float(world.arm[ARM_FRICTION] if a == count else world.arm[OBJECT_FRICTION])
+        return float(arm[WALL_FRICTION])
+    return float(arm[ARM_FRICTION] if a == count else arm[OBJECT_FRICTION])

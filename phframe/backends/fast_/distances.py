@@ -31,6 +31,7 @@ from phframe.backends.fast_.layout import (
     YAW,
     FastWorld,
 )
+from phframe.core import FloatArray
 
 Measured = tuple[float, float, float]
 """A signed distance (m) and the direction in which it grows: x, y."""
@@ -40,40 +41,40 @@ FAR = 1e9
 @compiled
 def lay_arm(world: FastWorld) -> None:
     """Where the arm's corners, normals and circles lie in the shelf."""
-    arm = world.arm
+    arm, parts, corners = world.arm, world.parts, world.corners
     cosine, sine = math.cos(arm[YAW]), math.sin(arm[YAW])
     shift = (arm[OPENING] - world.arm[MIN_OPENING]) / 2.0
-    for part in range(len(world.parts)):
-        aside = world.parts[part, SIDE] * shift
-        x, y = world.parts[part, OWN_X], world.parts[part, OWN_Y] + aside
-        world.parts[part, MIDDLE_X] = arm[BODY_X] + cosine * x - sine * y
-        world.parts[part, MIDDLE_Y] = arm[BODY_Y] + sine * x + cosine * y
-        for row in range(int(world.parts[part, FIRST]), int(world.parts[part, END])):
-            x, y = world.corners[row, OWN_X], world.corners[row, OWN_Y] + aside
-            world.corners[row, CORNER_X] = arm[BODY_X] + cosine * x - sine * y
-            world.corners[row, CORNER_Y] = arm[BODY_Y] + sine * x + cosine * y
-            x, y = world.corners[row, OWN_NX], world.corners[row, OWN_NY]
-            world.corners[row, EDGE_NX] = cosine * x - sine * y
-            world.corners[row, EDGE_NY] = sine * x + cosine * y
+    for part in range(len(parts)):
+        aside = parts[part, SIDE] * shift
+        x, y = parts[part, OWN_X], parts[part, OWN_Y] + aside
+        parts[part, MIDDLE_X] = arm[BODY_X] + cosine * x - sine * y
+        parts[part, MIDDLE_Y] = arm[BODY_Y] + sine * x + cosine * y
+        for row in range(int(parts[part, FIRST]), int(parts[part, END])):
+            x, y = corners[row, OWN_X], corners[row, OWN_Y] + aside
+            corners[row, CORNER_X] = arm[BODY_X] + cosine * x - sine * y
+            corners[row, CORNER_Y] = arm[BODY_Y] + sine * x + cosine * y
+            x, y = corners[row, OWN_NX], corners[row, OWN_NY]
+            corners[row, EDGE_NX] = cosine * x - sine * y
+            corners[row, EDGE_NY] = sine * x + cosine * y
 
 
 @compiled
-def to_part(world: FastWorld, part: int, x: float, y: float) -> Measured:
+def to_part(parts: FloatArray, corners: FloatArray, part: int, x: float, y: float) -> Measured:
     """From a part of the arm to a point; from its edge or corner that is nearest."""
-    begin, end = int(world.parts[part, FIRST]), int(world.parts[part, END])
+    begin, end = int(parts[part, FIRST]), int(parts[part, END])
     best, edge = -FAR, begin
     for row in range(begin, end):
-        distance = (x - world.corners[row, CORNER_X]) * world.corners[row, EDGE_NX] + (
-            y - world.corners[row, CORNER_Y]
-        ) * world.corners[row, EDGE_NY]
+        distance = (x - corners[row, CORNER_X]) * corners[row, EDGE_NX] + (y - corners[row, CORNER_Y]) * corners[
+            row, EDGE_NY
+        ]
         if distance > best:
             best, edge = distance, row
-    nx, ny = world.corners[edge, EDGE_NX], world.corners[edge, EDGE_NY]
+    nx, ny = corners[edge, EDGE_NX], corners[edge, EDGE_NY]
     if best <= 0.0:
         return best, nx, ny
     following = begin if edge + 1 == end else edge + 1
     for corner, sign in ((edge, 1.0), (following, -1.0)):
-        dx, dy = x - world.corners[corner, CORNER_X], y - world.corners[corner, CORNER_Y]
+        dx, dy = x - corners[corner, CORNER_X], y - corners[corner, CORNER_Y]
         if sign * (-ny * dx + nx * dy) < 0.0:
             distance = length(dx, dy)
             return distance, dx / distance, dy / distance
@@ -81,9 +82,9 @@ def to_part(world: FastWorld, part: int, x: float, y: float) -> Measured:
 
 
 @compiled
-def to_wall(world: FastWorld, wall: int, x: float, y: float) -> Measured:
+def to_wall(arm: FloatArray, wall: int, x: float, y: float) -> Measured:
     """From a wall, a box that ends at the mouth, to a point."""
-    depth, width = world.arm[DEPTH], world.arm[WIDTH]
+    depth, width = arm[DEPTH], arm[WIDTH]
     if wall == SOUTH:
         return _to_box(0.0, -WALL_THICKNESS, depth, 0.0, x, y)
     if wall == NORTH:

@@ -54,6 +54,7 @@ from phframe.backends.fast_.layout import (
     Y,
 )
 from phframe.backends.fast_.solver import solve
+from phframe.core import FloatArray
 
 STILL = 1e-7
 """Slower than this (m/s, rim included) is not moving."""
@@ -94,7 +95,7 @@ def step(world: FastWorld, h: float, x: float, y: float, yaw: float, opening: fl
     if arm[SATURATED] == 0.0 and drag_force(world) < force:
         arm[ARM_VX], arm[ARM_VY] = vx, vy  # the drive need not accelerate the arm itself, nor what it can carry
     world.bodies[tip, VX], world.bodies[tip, VY], world.bodies[tip, SPIN] = arm[ARM_VX], arm[ARM_VY], 0.0
-    fastest = length(vx, vy) + abs(turn) * LEVER + abs(widening) / 2.0 + _fastest(world)
+    fastest = length(vx, vy) + abs(turn) * LEVER + abs(widening) / 2.0 + _fastest(world.bodies)
     lay_arm(world)
     found = find_contacts(world, h, fastest * h + SLACK, turn, widening)
     _keep_speeds(world)
@@ -110,11 +111,11 @@ def step(world: FastWorld, h: float, x: float, y: float, yaw: float, opening: fl
 
 
 @compiled
-def _fastest(world: FastWorld) -> float:
+def _fastest(bodies: FloatArray) -> float:
     """Speed of the fastest object (m/s)."""
     best = 0.0
-    for row in range(len(world.bodies) - 2):
-        best = max(best, length(world.bodies[row, VX], world.bodies[row, VY]))
+    for row in range(len(bodies) - 2):
+        best = max(best, length(bodies[row, VX], bodies[row, VY]))
     return best
 
 
@@ -139,12 +140,12 @@ def _move_objects(world: FastWorld, found: int, h: float) -> None:
             bodies[int(rows[contact, BODY_B]), AWAKE] = 2.0
     for row in range(count):
         if bodies[row, AWAKE] != 0.0:
-            _move(world, row, h)
+            _move(bodies, row, h)
 
 
 @compiled
-def _move(world: FastWorld, row: int, h: float) -> None:
-    bodies, lever = world.bodies, world.bodies[row, FRICTION_LEVER]
+def _move(bodies: FloatArray, row: int, h: float) -> None:
+    lever = bodies[row, FRICTION_LEVER]
     if length(bodies[row, VX], bodies[row, VY]) + abs(bodies[row, SPIN]) * bodies[row, RADIUS] < STILL:
         bodies[row, VX] = bodies[row, VY] = bodies[row, SPIN] = 0.0
     first, last, slide = 0.0, 1.0, h
@@ -195,24 +196,37 @@ def _separate(world: FastWorld, found: int, h: float) -> None:
         of_b = gives if b == tip else world.bodies[b, BY_MASS]
         if of_a + of_b > 0.0:
             share = WORKED_OFF * overlap / (of_a + of_b)
-            _shift(world, tip, a, -share * of_a * rows[contact, NORMAL_X], -share * of_a * rows[contact, NORMAL_Y])
-            _shift(world, tip, b, share * of_b * rows[contact, NORMAL_X], share * of_b * rows[contact, NORMAL_Y])
+            _shift(
+                world.bodies,
+                world.arm,
+                a,
+                -share * of_a * rows[contact, NORMAL_X],
+                -share * of_a * rows[contact, NORMAL_Y],
+            )
+            _shift(
+                world.bodies,
+                world.arm,
+                b,
+                share * of_b * rows[contact, NORMAL_X],
+                share * of_b * rows[contact, NORMAL_Y],
+            )
 
 
 @compiled
-def _shift(world: FastWorld, tip: int, body: int, dx: float, dy: float) -> None:
+def _shift(bodies: FloatArray, arm: FloatArray, body: int, dx: float, dy: float) -> None:
+    tip = len(bodies) - 2
     if body < tip:
-        world.bodies[body, X] += dx
-        world.bodies[body, Y] += dy
+        bodies[body, X] += dx
+        bodies[body, Y] += dy
     elif body == tip:
-        world.arm[BODY_X] += dx
-        world.arm[BODY_Y] += dy
+        arm[BODY_X] += dx
+        arm[BODY_Y] += dy
 
 
 @compiled
 def rest(world: FastWorld) -> bool:
     """Whether no object moves at all; noted in the world."""
-    resting = _fastest(world) == 0.0
+    resting = _fastest(world.bodies) == 0.0
     for row in range(len(world.bodies) - 2):
         resting = resting and world.bodies[row, SPIN] == 0.0
     world.arm[RESTING] = 1.0 if resting else 0.0
