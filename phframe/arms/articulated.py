@@ -31,6 +31,7 @@ from phframe.core.value import frozen_floats
 from phframe.motion.options import ArticulatedOptions
 from phframe.motion.pinocchio_ import Kinematics
 from phframe.motion.reachability import reachability
+from phframe.motion.straight_reach import StraightReach
 from phframe.urdf.description import ArmDescription, Section, read_description
 from phframe.urdf.driven import driven_robot
 from phframe.urdf.model import Robot
@@ -162,18 +163,14 @@ class ArticulatedArm(ArmModel[OptionsT]):
             scene, self, base_pose, self.options, self.description, self.robot, self.kinematics
         )
 
-    def fraction_served(self, shelf: Shelf, base_pose: BasePose) -> float:
+    def straight_reach(self, shelf: Shelf, base_pose: BasePose) -> StraightReach:
+        """Its straight ways into a shelf, empty."""
+        parts = self.description, self.robot, self.kinematics, self.options
+        return StraightReach(shelf, self, base_pose, *parts)
+
+    def fraction_served(self, shelf: Shelf, base_pose: BasePose, enough: float = 1.0) -> float:
         """As ``phframe arm reach`` says it."""
-        return reachability(shelf, self, base_pose).fraction
-
-    def descend(self, pose: FloatArray, seed: FloatArray) -> FloatArray | None:
-        """Joint values ``(dof,)`` for a pose ``(7,)``, downhill from a seed alone, or None."""
-        return self.kinematics.descend(pose, seed)
-
-    @property
-    def seeds(self) -> tuple[FloatArray, ...]:
-        """Home, and the seed configurations of the description."""
-        return (self.home, *(frozen_floats(seed) for seed in self.description.seed_configurations))
+        return reachability(shelf, self, base_pose, enough=enough).fraction
 
     @cached_property
     def kinematics(self) -> Kinematics:

@@ -94,7 +94,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         depth, margins = scene.shelf.depth, (options.wall_margin, options.object_margin)
         surface = SurfacePoints(kinematics, robot, description.joints, arm.tip_link, base_pose, depth)
         self._objective = NullSpaceObjective(kinematics, surface, description.behind, scene.shelf)
-        self._collisions = CollisionModel(arm, description, scene, base_pose, *margins)
+        self._collisions = CollisionModel(arm, description, scene.shelf, scene.objects, base_pose, *margins)
         self._time_parametrisation = TimeParametrisation(arm, base_pose, options)
         self._names = [joint.name for joint in arm.joints]
         self._seeds = [np.array(seed) for seed in description.seed_configurations]

@@ -1,0 +1,168 @@
+"""Straight reaches: whether an arm's fingertip gets to a place straight in through the mouth of an empty shelf."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cache
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+
+from phframe.core import (
+    MOUTH_CLEARANCE,
+    ArmModel,
+    BasePose,
+    Contacts,
+    FloatArray,
+    GripperPath,
+    Phase,
+    PhaseRule,
+    Shelf,
+    State,
+    Unreachable,
+)
+from phframe.core.gripper_path import LEAST_AHEAD
+from phframe.geometry.arm_view import ArmView
+from phframe.motion.budget import SearchBudget
+from phframe.motion.cartesian_following import CartesianFollower
+from phframe.motion.cartesian_path import CartesianPathFollower, JointPath
+from phframe.motion.cartesian_waypoints import waypoints
+from phframe.motion.coal_ import CollisionModel
+from phframe.motion.collision_checking import CollisionContext
+from phframe.motion.configuration_search import ConfigurationSearch
+from phframe.motion.differential_ik import DifferentialIK
+from phframe.motion.null_space_objective import NullSpaceObjective
+from phframe.motion.options import ArticulatedOptions
+from phframe.motion.pinocchio_ import Kinematics
+from phframe.motion.surface_points import SurfacePoints
+from phframe.urdf.description import ArmDescription
+from phframe.urdf.model import Robot
+
+YAWS = tuple(math.radians(degrees) for degrees in (0, 10, -10, 20, -20, 30, -30, 40, -40))
+"""Of the gripper (rad), tried in this order."""
+ROUGHLY = 6
+"""Every how many waypoints a way in is looked at where many are."""
+EMPTY = State(np.empty((0, 7)), ())
+"""Of a shelf in which nothing stands."""
+
+
+class StraightReach:
+    """Straight ways in over an empty shelf, from one base pose; the way out is the same, backwards.
+
+    The fingertip goes straight ahead at constant height, the gripper level, along its yaw. A way is free where the arm's
+    outlines pass between the walls, and joints follow it continuously from one of the arm's seed configurations with
+    no link touching another, a wall, the board or the ceiling.
+
+    Args:
+        shelf: The shelf.
+        arm: The arm.
+        base_pose: Where its base stands.
+        description: Of the arm.
+        robot: Its links.
+        kinematics: Of the chain from its base to the fingertip.
+        options: Of the arm.
+    """
+
+    def __init__(
+        self,
+        shelf: Shelf,
+        arm: ArmModel[Any],
+        base_pose: BasePose,
+        description: ArmDescription,
+        robot: Robot,
+        kinematics: Kinematics,
+        options: ArticulatedOptions,
+    ) -> None:
+        self._arm, self._base_pose, self._kinematics = arm, base_pose, kinematics
+        self._spacing = options.cartesian_spacing
+        surface = SurfacePoints(kinematics, robot, description.joints, arm.tip_link, base_pose, shelf.depth)
+        self._objective = NullSpaceObjective(kinematics, surface, description.behind, shelf)
+        self._ik = DifferentialIK(kinematics, self._objective, np.empty((0, 4)))
+        self._collisions = CollisionModel(arm, description, shelf, (), base_pose, options.wall_margin, 0.0)
+        self._seeds = [*(np.array(seed) for seed in description.seed_configurations), arm.home]
+        self._follower = cache(self._made_follower)
+        self._view = cache(lambda opening: ArmView(shelf, arm.shape.outlines(opening), options.wall_margin))
+
+    def yaws(self, place: Sequence[float], opening: float, stride: int = ROUGHLY) -> tuple[float, ...]:
+        """Those of ``YAWS`` (rad) at which the way to a place is free; arguments as for ``way``."""
+        return tuple(yaw for yaw in YAWS if isinstance(self.way(place, yaw, opening, stride), JointPath))
+
+    def way(
+        self, place: Sequence[float], yaw: float, opening: float, stride: int = ROUGHLY, attempts: int = 0
+    ) -> JointPath | Unreachable:
+        """Joints for the way in to a place at a yaw, or how far they get, and why no farther.
+
+        Args:
+            place: Where the fingertip is to be: x, y in the shelf frame (m).
+            yaw: Of the gripper (rad).
+            opening: Distance between the fingers on the way (m).
+            stride: Every how many waypoints is looked at.
+            attempts: Configurations to be tried at random where none of the seeds leads there.
+        """
+        path = straight_way_in(self._view(opening), place, yaw, opening)
+        if isinstance(path, Unreachable):
+            return path
+        if not attempts and not self._can_end(self._follower(opening).target(path.poses[-1])):
+            return Unreachable(0.0, "out of reach: inverse kinematics finds no joint values for the end of the way", 0)
+        return self._followed(path, stride, attempts)
+
+    def depth(self, across: float, opening: float, deepest: float) -> float:
+        """How deep (m, at most ``deepest``) the fingertip gets straight ahead at yaw 0 with its y at ``across`` (m)."""
+        path = straight_way_in(self._view(opening), (deepest, across), 0.0, opening)
+        found = path if isinstance(path, Unreachable) else self._followed(path, ROUGHLY, 0)
+        if isinstance(found, JointPath):
+            return deepest
+        start = deepest - _length(self._view(opening), (deepest, across), 0.0)
+        return start + found.where - ROUGHLY * self._spacing
+
+    def _followed(self, path: GripperPath, stride: int, attempts: int) -> JointPath | Unreachable:
+        """Joints for a path."""
+        follower = self._follower(path.rule(0).opening)
+        paths = CartesianPathFollower(path, waypoints(path, self._spacing), self._spacing, lambda _: follower)
+        search = ConfigurationSearch(paths, self._kinematics, self._objective, 0.0, SearchBudget(1, math.inf))
+        found = search.first(self._seeds, stride)
+        if found is None and attempts:
+            found = next(search.joint_paths((), attempts, np.random.default_rng(0)), None)
+        return search.farthest if found is None else found
+
+    def _can_end(self, target: Any) -> bool:
+        return any(self._kinematics.descend_to(target, seed) is not None for seed in self._seeds)
+
+    def _made_follower(self, opening: float) -> CartesianFollower:
+        checker = self._collisions.checker(CollisionContext(EMPTY, opening))
+        names = [joint.name for joint in self._arm.joints]
+        return CartesianFollower(self._ik, checker, self._base_pose, self._arm.shape.height, names)
+
+
+@runtime_checkable
+class SupportsStraightReach(Protocol):
+    """An arm of joints that knows its straight ways into an empty shelf."""
+
+    def straight_reach(self, shelf: Shelf, base_pose: BasePose) -> StraightReach:
+        """The straight ways in with the base at a pose."""
+
+
+def straight_way_in(view: ArmView, place: Sequence[float], yaw: float, opening: float) -> GripperPath | Unreachable:
+    """The straight path from before the mouth to a place, or where a wall is in its way.
+
+    Args:
+        view: The arm between the walls.
+        place: Where the fingertip is to be: x, y in the shelf frame (m).
+        yaw: Of the gripper (rad).
+        opening: Distance between the fingers (m).
+    """
+    degrees, ahead = math.degrees(yaw), np.array([math.cos(yaw), math.sin(yaw)])
+    if ahead[0] < LEAST_AHEAD:
+        return Unreachable(0.0, f"the gripper does not come in through the mouth turned by {degrees:.0f} degrees", 0)
+    tip, length = np.array(place, dtype=np.float64), _length(view, place, yaw)
+    travel = view.walls(yaw).travel(tip - length * ahead, ahead, length)
+    if travel < length:
+        return Unreachable(travel, f"the arm meets a wall on its way in at yaw {degrees:.0f} degrees", 0)
+    poses = np.array([[*(tip - length * ahead), yaw], [*tip, yaw]])
+    return GripperPath(poses, (Phase.REACH,), {Phase.REACH: PhaseRule(1.0, opening, Contacts.NONE)})
+
+
+def _length(view: ArmView, place: Sequence[float], yaw: float) -> float:
+    """Of the way to a place from where all of the arm is well before the mouth (m)."""
+    return (place[0] + view.silhouette(yaw).front + MOUTH_CLEARANCE) / math.cos(yaw)
