@@ -14,7 +14,6 @@ from phframe.core import (
     ArmModel,
     BasePose,
     Contacts,
-    FloatArray,
     GripperPath,
     Phase,
     PhaseRule,
@@ -43,6 +42,10 @@ YAWS = tuple(math.radians(degrees) for degrees in (0, 10, -10, 20, -20, 30, -30,
 """Of the gripper (rad), tried in this order."""
 ROUGHLY = 6
 """Every how many waypoints a way in is looked at where many are."""
+PAST, ROOM = 0.004, 0.003
+"""The least by which a grasp's fingertips go past the middle of its object, and the least room beside it (m)."""
+ATTEMPTS = 3
+"""Configurations that are tried at random at each yaw before an object counts as out of reach."""
 EMPTY = State(np.empty((0, 7)), ())
 """Of a shelf in which nothing stands."""
 
@@ -106,6 +109,41 @@ class StraightReach:
         if not attempts and not self._can_end(self._follower(opening).target(path.poses[-1])):
             return Unreachable(0.0, "out of reach: inverse kinematics finds no joint values for the end of the way", 0)
         return self._followed(path, stride, attempts)
+
+    def grasp_yaws(self, position: Sequence[float], radius: float, stride: int = ROUGHLY) -> tuple[float, ...]:
+        """Those of ``YAWS`` (rad) at which the way to a grasp is free; arguments as for ``grasp``."""
+        return tuple(yaw for yaw in YAWS if isinstance(self.grasp(position, radius, yaw, stride), JointPath))
+
+    def grasp(
+        self, position: Sequence[float], radius: float, yaw: float, stride: int = ROUGHLY, attempts: int = 0
+    ) -> JointPath | Unreachable:
+        """The way to a grasp of an object, as ``way``.
+
+        Args:
+            position: Of the object (m).
+            radius: Of the object (m).
+            yaw: Of the gripper (rad).
+            stride: As for ``way``.
+            attempts: As for ``way``.
+        """
+        place = position[0] + PAST * math.cos(yaw), position[1] + PAST * math.sin(yaw)
+        shape = self._arm.shape
+        opening = min(max(2.0 * (radius + ROOM), shape.min_opening), shape.max_opening)
+        return self.way(place, yaw, opening, stride, attempts)
+
+    def out_of_reach(self, position: Sequence[float], radius: float) -> Unreachable | None:
+        """Why an object can be grasped at none of ``YAWS`` in an empty shelf: how far that gets at best; None: it can."""
+        endings = []
+        for yaw in YAWS:
+            ending = self.grasp(position, radius, yaw)
+            if isinstance(ending, JointPath):
+                return None
+        for yaw in YAWS:
+            ending = self.grasp(position, radius, yaw, attempts=ATTEMPTS)
+            if isinstance(ending, JointPath):
+                return None
+            endings.append(ending)
+        return max(endings, key=lambda ending: ending.where)
 
     def depth(self, across: float, opening: float, deepest: float) -> float:
         """How deep (m, at most ``deepest``) the fingertip gets straight ahead at yaw 0 with its y at ``across`` (m)."""

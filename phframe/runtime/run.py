@@ -23,6 +23,7 @@ from phframe.core.run_spec import PARTS
 from phframe.registry import Kind, create, identify, load, refuse_stored_code
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
+from phframe.runtime.mounting import Told, mounted
 from phframe.runtime.noise import Noise
 from phframe.runtime.observer import Observer
 from phframe.runtime.planning_world import PlanningWorld
@@ -54,13 +55,21 @@ def run(
     with ExitStack() as stack:
         for observer in observers:
             stack.callback(observer.close)
-        ready = prepare(spec)
+        ready = prepare(mounted(spec, _teller(observers)))
         planning = stack.enter_context(PlanningWorld(ready.plan_world, spec.workers))
         execution = stack.enter_context(ExecutionWorld(ready.world))
         sensor = Sensor(ready.noise, ready.scene, execution.arm.shape, spec.seed)
         return run_episode(
             ready.planner, ready.topology, planning, execution, ready.goal, ready.spec, observers, sensor, advisor
         )
+
+
+def _teller(observers: Sequence[Observer]) -> Told:
+    def told(done: int, of: int) -> None:
+        for observer in observers:
+            observer.mounting(done, of)
+
+    return told
 
 
 @dataclass(frozen=True, slots=True)
