@@ -174,6 +174,7 @@ class _Run:
             budget=Budget(max(0.0, loop.time_limit - spent.total), simulations),
             rejected=self._rejections,
             reach=self._execution.unreachable,
+            object_reach=self._execution.out_of_reach,
             advisor=self._advisor,
         )
         plan = self._planner.plan(task)

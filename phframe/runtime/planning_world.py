@@ -34,7 +34,7 @@ from phframe.core import (
     Unreachable,
     Watch,
 )
-from phframe.core.task import Pair, Reach
+from phframe.core.task import ObjectReach, Pair, Reach
 from phframe.runtime.world import World, WorldSpec
 
 
@@ -84,6 +84,7 @@ class PlanningWorld(World):
         budget: Budget = Budget(),  # noqa: B008 - immutable
         rejected: tuple[Rejection, ...] = (),
         reach: Reach | None = None,
+        object_reach: ObjectReach | None = None,
         advisor: Advisor = NOBODY,
     ) -> Task:
         """The problem of achieving a goal from a state in this world.
@@ -97,6 +98,7 @@ class PlanningWorld(World):
             budget: What the planner may spend.
             rejected: Actions that could not be carried out, or came to nothing.
             reach: Whether the arm that will carry the plan out can follow an action; None: not known.
+            object_reach: Whether that arm can have an object grasped where it stands; None: not known.
             advisor: Whom the planner may ask.
         """
         return Task(
@@ -111,6 +113,7 @@ class PlanningWorld(World):
             budget=budget,
             rejected=rejected,
             reach=reach,
+            object_reach=object_reach,
             steered=self.physics if isinstance(self.physics, SupportsPropagation) else None,
             begin_steering=self._begin_steering,
             advisor=advisor,
