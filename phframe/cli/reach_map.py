@@ -9,7 +9,7 @@ import numpy as np
 
 from phframe.core import Scene
 from phframe.motion.reachability import Reachability
-from phframe.motion.straight_reach import YAWS
+from phframe.motion.straight_way import YAWS
 from phframe.recorders.scene_plot import draw_shelf, outline_in_shelf
 
 SIZE, DOTS = (6.4, 6.4), 120

@@ -9,7 +9,8 @@ from itertools import product
 from typing import Any
 
 from phframe.core import ArmModel, BasePose, Scene, Shelf
-from phframe.motion.straight_reach import ROUGHLY, StraightReach, SupportsStraightReach
+from phframe.motion.reachability import SupportsStraightReach
+from phframe.motion.straight_reach import ROUGHLY, StraightReach
 
 ACROSS = (0.0, 0.1, -0.1)
 """From the default base pose along the mouth (m)."""

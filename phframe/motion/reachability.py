@@ -4,20 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
 
 from phframe.core import ArmModel, BasePose, FloatArray, GripperPath, Shelf
 from phframe.core.value import Floats, Value
 from phframe.geometry.arm_view import ArmView
-from phframe.motion.straight_reach import YAWS, StraightReach, SupportsStraightReach, straight_way_in
+from phframe.motion.straight_way import YAWS, straight_way_in
+
+if TYPE_CHECKING:
+    from phframe.motion.straight_reach import StraightReach
 
 SPACING = 0.05
 """Of the grid of fingertip positions (m)."""
 INSET = 0.03
 """Kept between the grid and mouth, walls and back (m): what stands there is no nearer, being as wide as the usual object."""
 Cell = tuple[int, int]
+
+
+@runtime_checkable
+class SupportsStraightReach(Protocol):
+    """An arm of joints that knows its straight ways into an empty shelf."""
+
+    def straight_reach(self, shelf: Shelf, base_pose: BasePose) -> StraightReach:
+        """The straight ways in with the base at a pose."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

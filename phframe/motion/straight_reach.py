@@ -5,23 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cache
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 
 from phframe.core import (
-    MOUTH_CLEARANCE,
     ArmModel,
     BasePose,
-    Contacts,
     GripperPath,
-    Phase,
-    PhaseRule,
     Shelf,
     State,
     Unreachable,
 )
-from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.geometry.arm_view import ArmView
 from phframe.motion.budget import SearchBudget
 from phframe.motion.cartesian_following import CartesianFollower
@@ -34,18 +29,19 @@ from phframe.motion.differential_ik import DifferentialIK
 from phframe.motion.null_space_objective import NullSpaceObjective
 from phframe.motion.options import ArticulatedOptions
 from phframe.motion.pinocchio_ import Kinematics
+from phframe.motion.straight_way import YAWS, straight_way_in, way_length
 from phframe.motion.surface_points import SurfacePoints
 from phframe.urdf.description import ArmDescription
 from phframe.urdf.model import Robot
 
-YAWS = tuple(math.radians(degrees) for degrees in (0, 10, -10, 20, -20, 30, -30, 40, -40))
-"""Of the gripper (rad), tried in this order."""
 ROUGHLY = 6
 """Every how many waypoints a way in is looked at where many are."""
 PAST, ROOM = 0.004, 0.003
 """The least by which a grasp's fingertips go past the middle of its object, and the least room beside it (m)."""
 ATTEMPTS = 3
 """Configurations that are tried at random at each yaw before an object counts as out of reach."""
+SHORT = 1e-6
+"""By which a way ends before a wall that is in it (m)."""
 EMPTY = State(np.empty((0, 7)), ())
 """Of a shelf in which nothing stands."""
 
@@ -147,12 +143,16 @@ class StraightReach:
 
     def depth(self, across: float, opening: float, deepest: float) -> float:
         """How deep (m, at most ``deepest``) the fingertip gets straight ahead at yaw 0 with its y at ``across`` (m)."""
-        path = straight_way_in(self._view(opening), (deepest, across), 0.0, opening)
-        found = path if isinstance(path, Unreachable) else self._followed(path, ROUGHLY, 0)
-        if isinstance(found, JointPath):
-            return deepest
-        start = deepest - _length(self._view(opening), (deepest, across), 0.0)
-        return start + found.where - ROUGHLY * self._spacing
+        view = self._view(opening)
+        start = deepest - way_length(view, (deepest, across), 0.0)
+        path = straight_way_in(view, (deepest, across), 0.0, opening)
+        if isinstance(path, Unreachable):
+            deepest = start + path.where - SHORT
+            path = straight_way_in(view, (deepest, across), 0.0, opening)
+        if isinstance(path, Unreachable):
+            return start
+        found = self._followed(path, ROUGHLY, 0)
+        return deepest if isinstance(found, JointPath) else start + found.where - ROUGHLY * self._spacing
 
     def _followed(self, path: GripperPath, stride: int, attempts: int) -> JointPath | Unreachable:
         """Joints for a path."""
@@ -171,36 +171,3 @@ class StraightReach:
         checker = self._collisions.checker(CollisionContext(EMPTY, opening))
         names = [joint.name for joint in self._arm.joints]
         return CartesianFollower(self._ik, checker, self._base_pose, self._arm.shape.height, names)
-
-
-@runtime_checkable
-class SupportsStraightReach(Protocol):
-    """An arm of joints that knows its straight ways into an empty shelf."""
-
-    def straight_reach(self, shelf: Shelf, base_pose: BasePose) -> StraightReach:
-        """The straight ways in with the base at a pose."""
-
-
-def straight_way_in(view: ArmView, place: Sequence[float], yaw: float, opening: float) -> GripperPath | Unreachable:
-    """The straight path from before the mouth to a place, or where a wall is in its way.
-
-    Args:
-        view: The arm between the walls.
-        place: Where the fingertip is to be: x, y in the shelf frame (m).
-        yaw: Of the gripper (rad).
-        opening: Distance between the fingers (m).
-    """
-    degrees, ahead = math.degrees(yaw), np.array([math.cos(yaw), math.sin(yaw)])
-    if ahead[0] < LEAST_AHEAD:
-        return Unreachable(0.0, f"the gripper does not come in through the mouth turned by {degrees:.0f} degrees", 0)
-    tip, length = np.array(place, dtype=np.float64), _length(view, place, yaw)
-    travel = view.walls(yaw).travel(tip - length * ahead, ahead, length)
-    if travel < length:
-        return Unreachable(travel, f"the arm meets a wall on its way in at yaw {degrees:.0f} degrees", 0)
-    poses = np.array([[*(tip - length * ahead), yaw], [*tip, yaw]])
-    return GripperPath(poses, (Phase.REACH,), {Phase.REACH: PhaseRule(1.0, opening, Contacts.NONE)})
-
-
-def _length(view: ArmView, place: Sequence[float], yaw: float) -> float:
-    """Of the way to a place from where all of the arm is well before the mouth (m)."""
-    return (place[0] + view.silhouette(yaw).front + MOUTH_CLEARANCE) / math.cos(yaw)
