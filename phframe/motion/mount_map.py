@@ -16,6 +16,8 @@ ACROSS = (0.0, 0.1, -0.1)
 """From the default base pose along the mouth (m)."""
 UP = (0.0, -0.1, -0.2)
 """From the default base pose upwards (m)."""
+ENOUGH = 2
+"""Free yaws to the target, from which on more of them do not count for more than a base that is nearer the default."""
 Told = Callable[[int, int], None]
 """Is told how many of how many base poses have been looked at."""
 
@@ -58,7 +60,7 @@ def mount_map(arms: Sequence[ArmModel[Any]], scene: Scene, told: Told = lambda d
 
 
 def best_mount(mounts: Sequence[Mount], scene: Scene, least_served: float) -> Mount | None:
-    """The mount with the most free yaws to the target, of several the first; None: none has any.
+    """The first mount with ``ENOUGH`` free yaws to the target, else the one with the most; None: none has any.
 
     What the map found roughly is looked at closely, and so much of the shelf must be within reach besides.
 
@@ -67,7 +69,7 @@ def best_mount(mounts: Sequence[Mount], scene: Scene, least_served: float) -> Mo
         scene: The scene.
         least_served: Fraction of the shelf.
     """
-    for mount in sorted(mounts, key=lambda mount: -len(mount.yaws)):
+    for mount in sorted(mounts, key=lambda mount: -min(len(mount.yaws), ENOUGH)):
         reach = straight_reach(mount.arm, scene.shelf, mount.base_pose)
         if not mount.yaws or not _grasp_yaws(reach, scene, 1):
             continue
