@@ -14,7 +14,7 @@ from phframe.motion.straight_reach import ROUGHLY, StraightReach
 
 ACROSS = (0.0, 0.1, -0.1)
 """From the default base pose along the mouth (m)."""
-UP = (0.0, -0.1, -0.2)
+UP = (0.0, 0.1, -0.1)
 """From the default base pose upwards (m)."""
 ENOUGH = 2
 """Free yaws to the target, from which on more of them do not count for more than a base that is nearer the default."""

@@ -28,7 +28,7 @@ def straight_way_in(view: ArmView, place: Sequence[float], yaw: float, opening: 
     if ahead[0] < LEAST_AHEAD:
         return Unreachable(0.0, f"the gripper does not come in through the mouth turned by {degrees:.0f} degrees", 0)
     tip, length = np.array(place, dtype=np.float64), way_length(view, place, yaw)
-    travel = view.walls(yaw).travel(tip - length * ahead, ahead, length)
+    travel = float(view.walls(yaw).travel(tip - length * ahead, ahead, length))
     if travel < length:
         return Unreachable(travel, f"the arm meets a wall on its way in at yaw {degrees:.0f} degrees", 0)
     poses = np.array([[*(tip - length * ahead), yaw], [*tip, yaw]])
@@ -37,4 +37,4 @@ def straight_way_in(view: ArmView, place: Sequence[float], yaw: float, opening: 
 
 def way_length(view: ArmView, place: Sequence[float], yaw: float) -> float:
     """Of the way to a place from where all of the arm is well before the mouth (m)."""
-    return (place[0] + view.silhouette(yaw).front + MOUTH_CLEARANCE) / math.cos(yaw)
+    return (place[0] + float(view.silhouette(yaw).front) + MOUTH_CLEARANCE) / math.cos(yaw)

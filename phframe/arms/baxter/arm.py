@@ -21,7 +21,7 @@ class BaxterOptions(ArticulatedOptions):
             is ``auto``, the side is chosen with it.
     """
 
-    side: Side = "left"
+    side: Side = "right"
 
 
 class Baxter(ArticulatedArm[BaxterOptions]):
