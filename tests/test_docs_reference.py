@@ -172,7 +172,7 @@ def test_what_runs_where_is_what_the_markers_say() -> None:
         names = re.findall(r"\w+", needed)
         own = [each.extra for each in builtin.EXTENSIONS if each.name in (backend, arm) and each.extra]
         assert set(own) <= set(names), (backend, arm)
-        by_joints = backend != "pymunk"
+        by_joints = backend not in ("pymunk", "fast")
         found = [available(names, platform, by_joints=by_joints) for platform in PLATFORMS.values()]
         assert cells == found, (backend, arm)
 

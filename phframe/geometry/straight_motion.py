@@ -29,7 +29,7 @@ def distances_on_way_in(points: FloatArray, lower: FloatArray, upper: FloatArray
 
 
 def swept_distances(parts: FloatArray, motion: FloatArray, points: FloatArray) -> FloatArray:
-    """Distances ``(..., n)`` of points from all that convex parts sweep over as they move straight on; 0 within (m).
+    """Distances ``(n, ...)`` of points from all that convex parts sweep over as they move straight on; 0 within (m).
 
     A part sweeps over its Minkowski sum with the motion, whose boundary consists of edges of the part where it begins and
     where it ends, and of ways of its corners.
@@ -37,22 +37,23 @@ def swept_distances(parts: FloatArray, motion: FloatArray, points: FloatArray) -
     Args:
         parts: Corners ``(..., m, v, 2)`` where they begin, counter-clockwise (m).
         motion: From there to where they end ``(..., 2)`` (m).
-        points: ``(..., n, 2)`` (m).
+        points: ``(n, 2)`` (m).
     """
-    edges, moved = edges_of(parts), np.broadcast_to(motion[..., None, None, :], parts.shape)
-    starts, ways = (
-        np.concatenate([parts, parts + moved, parts], axis=-2),
-        np.concatenate([edges, edges, moved], axis=-2),
+    # Axes: coordinates, points, lines, parts and the rest, so that numpy's innermost loops are long.
+    corners, edges = (
+        np.ascontiguousarray(each.transpose(-1, -2, -3, *range(each.ndim - 3))) for each in (parts, edges_of(parts))
     )
-    away_x, away_y = (points[..., None, None, :, axis] - starts[..., axis, None] for axis in (0, 1))
-    x, y = ways[..., 0, None], ways[..., 1, None]
+    moved = np.broadcast_to(motion.transpose(-1, *range(motion.ndim - 1))[:, None, None], corners.shape)
+    starts, count = np.concatenate([corners, corners + moved, corners], axis=1), corners.shape[1]
+    x, y = np.concatenate([edges, edges, moved], axis=1)
+    away_x, away_y = points.T.reshape(2, -1, *[1] * x.ndim) - starts[:, None]
     squares = x * x + y * y
-    along = np.clip((away_x * x + away_y * y) / np.where(squares == 0.0, 1.0, squares), 0.0, 1.0)
+    squares[squares == 0.0] = 1.0
+    along = np.minimum(np.maximum((away_x * x + away_y * y) / squares, 0.0), 1.0)
     off_x, off_y = away_x - along * x, away_y - along * y
-    distances = np.sqrt((off_x * off_x + off_y * off_y).min(axis=-2))
-    corners = parts.shape[-2]
+    distances = np.sqrt((off_x * off_x + off_y * off_y).min(axis=1))
     outside = away_x * y - away_y * x
-    beyond = (outside[..., :corners, :] > 0.0) & (outside[..., corners : 2 * corners, :] > 0.0)
-    beside = outside[..., 2 * corners :, :]
-    within = ~beyond.any(axis=-2) & (beside.min(axis=-2) <= 0.0) & (beside.max(axis=-2) >= 0.0)
-    return np.asarray(np.where(within, 0.0, distances).min(axis=-2))
+    beyond = (np.minimum(outside[:, :count], outside[:, count : 2 * count]) > 0.0).any(axis=1)
+    beside = outside[:, 2 * count :]
+    within = ~beyond & (beside.min(axis=1) <= 0.0) & (beside.max(axis=1) >= 0.0)
+    return np.asarray(np.where(within, 0.0, distances).min(axis=1))

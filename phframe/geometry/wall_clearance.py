@@ -55,10 +55,10 @@ class WallClearance:
     def room(self, start: FloatArray, direction: FloatArray, distance: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """How far it can move along a unit vector, and against it (m, at most ``distance``)."""
         enter, leave = self._overlaps(start, _Slopes(_dot(self._normals, direction)))
-        before, after = (enter < leave) & (leave > 0.0), (enter < leave) & (enter < 0.0)
-        ahead = np.where(before, enter, np.inf).min(axis=-1)
-        back = np.where(after, -leave, np.inf).min(axis=-1)
-        return np.clip(ahead, 0.0, distance), np.clip(back, 0.0, distance)
+        hits = enter < leave
+        ahead = np.where(hits & (leave > 0.0), enter, np.inf).min(axis=-1)
+        back = np.where(hits & (enter < 0.0), -leave, np.inf).min(axis=-1)
+        return np.minimum(np.maximum(ahead, 0.0), distance), np.minimum(np.maximum(back, 0.0), distance)
 
     def lets_out(self, tip: FloatArray, length: FloatArray) -> NDArray[np.bool_]:
         """Whether an arm with its fingertip at ``(..., 2)`` can draw straight back by a length (m), or come in this way."""

@@ -9,7 +9,7 @@ from phframe.pushing.corridor import Corridor, corridor_at, corridor_half_width,
 from phframe.pushing.cut_short import cut_short
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.fan import WIDE_FAN, Drive, drives
-from phframe.pushing.grasp import Grasp, grasp_action
+from phframe.pushing.grasp import Grasp, GraspFinder, grasp_action
 from phframe.pushing.grouping import Rectangle, bounding_rectangle, closest_component
 from phframe.pushing.groups import Group, Grouping, Radii, closest_groups
 from phframe.pushing.grtc import GrtcDeviation, GrtcSearch, Obstruction, StraightPushDecision
@@ -29,6 +29,7 @@ from phframe.pushing.straight_push import StraightPusher, StraightPushOptions
 from phframe.pushing.sweep import Sweep, push_action
 from phframe.pushing.sweep_generator import SweepGenerator
 from phframe.pushing.target_push import target_pushes
+from phframe.pushing.tilted_sweep import Push
 
 __all__ = [
     "MOVED_TARGET",
@@ -42,6 +43,7 @@ __all__ = [
     "Deviation",
     "Drive",
     "Grasp",
+    "GraspFinder",
     "Group",
     "Grouping",
     "GrtcDeviation",
@@ -49,6 +51,7 @@ __all__ = [
     "KnownTransitions",
     "Obstruction",
     "Proposal",
+    "Push",
     "PushDecision",
     "PushProblem",
     "PushSearch",

@@ -85,6 +85,13 @@ EXTENSIONS = [
     ),
     _own(
         Kind.BACKEND,
+        "fast",
+        "phframe.backends.fast_.physics:FastPhysics",
+        "The same shelf from above, compiled by numba: many times faster, made to plan in",
+        extra="fast",
+    ),
+    _own(
+        Kind.BACKEND,
         "mujoco",
         "phframe.backends.mujoco_.physics:MujocoPhysics",
         "The shelf in 3D with MuJoCo: objects tip, roll and fall, the arm is moved by its joints",

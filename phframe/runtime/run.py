@@ -36,7 +36,12 @@ from phframe.runtime.world import WorldSpec
 PLAN_BACKEND = "pymunk"
 """Where plans are made that an engine of joints carries out: many times faster."""
 PLAN_OPTIONS: Mapping[str, Any] = {"standing_radius": 2.0 / 3.0, "arm_acceleration": 10.0}
-"""Of that backend, where an engine in space carries the plans out; see docs/fidelity.md."""
+"""Of pymunk, where an engine in space carries the plans out; see docs/fidelity.md."""
+FITTED: Mapping[str, Mapping[str, Any]] = {
+    "pymunk": PLAN_OPTIONS,
+    "fast": {"arm_acceleration": 10.0, "object_friction": 0.15, "stall_lag": 0.02},
+}
+"""The same of every backend that was fitted to an engine in space."""
 
 
 def run(
@@ -157,7 +162,7 @@ def _plan_world(
     drives_joints = load(Kind.BACKEND, world.backend).executes is JointTrajectory
     backend = parts["plan_backend"][0] or (PLAN_BACKEND if drives_joints else world.backend)
     arm = parts["plan_arm"][0] or world.arm
-    fitted = PLAN_OPTIONS if drives_joints and backend == PLAN_BACKEND else {}
+    fitted = FITTED.get(backend, {}) if drives_joints and isinstance(backend, str) else {}
     inherited = {
         "plan_backend": world.backend_options if backend == world.backend else fitted,
         "plan_arm": world.arm_options if arm == world.arm else {},

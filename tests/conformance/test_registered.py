@@ -51,6 +51,7 @@ BRIEFLY = {
 
 NEEDS = {
     "grtc-kinodynamic": pytest.mark.needs_ompl,
+    "fast": pytest.mark.needs_fast,
     "mujoco": pytest.mark.needs_mujoco,
     "pybullet": pytest.mark.needs_pybullet,
     "baxter": pytest.mark.needs_baxter,
@@ -128,7 +129,7 @@ def physics(backend: str, arm: str) -> PhysicsUnderTest:
 )
 def test_physics(backend: str, arm: str, check: Check[PhysicsUnderTest]) -> None:
     for pair in ((arm, check.name), (f"{arm} in {backend}", check.name)):
-        if backend != "pymunk" and pair in UNSUITED:
+        if backend not in ("pymunk", "fast") and pair in UNSUITED:
             pytest.skip(UNSUITED[pair])
     try:
         subject = physics(backend, arm)

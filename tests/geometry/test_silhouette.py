@@ -65,3 +65,27 @@ def test_north_and_south_are_mirror_images(tilt: float, depth: float) -> None:
     depths = np.array([depth])
     one, other = (Silhouette(stacked(ARM.closed), sign * tilt) for sign in (1, -1))
     assert one.side(depths, 1) == pytest.approx(other.side(depths, -1), abs=1e-12)
+
+
+@pytest.mark.parametrize("outlines", [ARM.closed, ARM.outlines(0.08), (*ARM.closed, TRIANGLE)])
+@often
+@given(
+    ways=st.lists(st.tuples(tilts, st.sampled_from([1, -1]), st.floats(-0.5, 0.1)), min_size=1),
+    depths=st.lists(st.floats(-0.5, 0.2), min_size=1, max_size=3),
+)
+def test_several_tilts_at_once_are_as_each_by_itself(
+    outlines: tuple[Outline, ...], ways: list[tuple[float, int, float]], depths: list[float]
+) -> None:
+    parts = stacked(outlines)
+    many = Silhouette(parts, tuple(tilt for tilt, *_ in ways))
+    directions, nearest = np.array([way for _, way, _ in ways]), np.array([depth for *_, depth in ways])
+    sides = many.side(np.array(depths)[:, None] + nearest, directions)
+    widest = many.widest_side(nearest, nearest + 0.1, directions)
+    for row, (tilt, direction, depth) in enumerate(ways):
+        one = Silhouette(parts, tilt)
+        assert many.front[row] == one.front
+        assert (many.lowest[row], many.highest[row]) == (one.lowest, one.highest)
+        np.testing.assert_array_equal(sides[:, row], one.side(np.array(depths) + depth, direction))
+        assert widest[row] == one.widest_side(depth, depth + 0.1, direction)
+        at_tip = {1: one.tip_sides[0], -1: one.tip_sides[1]}[direction]
+        assert at_tip == one.side(np.zeros(1), direction)[0]

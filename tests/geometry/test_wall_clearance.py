@@ -105,3 +105,34 @@ def test_a_yaw_that_is_nearly_nothing_is_none() -> None:
         WallClearance(SHELF, stacked(ARM.closed), yaw, 0.002).travel(tip, ahead, 0.5) for yaw in (2e-311, 0.0)
     )
     assert tiny == pytest.approx(none)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@often
+@given(
+    reaches=st.lists(
+        st.tuples(yaws, st.floats(0.0, 0.6), st.floats(0.0, 0.6), headings, st.floats(0.0, 0.8)), min_size=1
+    )
+)
+def test_several_yaws_at_once_are_as_each_by_itself(
+    shape: str, reaches: list[tuple[float, float, float, float, float]]
+) -> None:
+    parts = stacked(SHAPES[shape])
+    many = WallClearance(SHELF, parts, tuple(yaw for yaw, *_ in reaches), 0.002)
+    tips, ways = np.array([[x, y] for _, x, y, *_ in reaches]), np.array([_along(way) for *_, way, _ in reaches])
+    lengths = np.array([length for *_, length in reaches])
+    ahead, back = many.room(tips, ways, lengths)
+    free, out = many.is_free(tips), many.lets_out(tips, lengths)
+    for row, (yaw, *_, length) in enumerate(reaches):
+        one = WallClearance(SHELF, parts, yaw, 0.002)
+        assert ahead[row] == pytest.approx(one.travel(tips[row], ways[row], length))
+        assert back[row] == pytest.approx(one.travel(tips[row], -ways[row], length))
+        assert free[row] == one.is_free(tips[row])
+        start = tips[row] - length * _along(yaw)
+        blocked = one.travel(tips[row], -_along(yaw), length), one.travel(start, _along(yaw), length)
+        if length > 0.0:
+            assert [bool(each >= length) for each in blocked] == [out[row]] * 2
+
+
+def _along(heading: float) -> FloatArray:
+    return np.array([math.cos(heading), math.sin(heading)])
