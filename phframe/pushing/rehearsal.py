@@ -34,6 +34,8 @@ class Rehearsals:
             end: The node, which a grasp leads to.
             clearance: That the arm keeps on its way in (m); None: not known.
         """
+        if self._best is None:  # found already, should the budget end here
+            self._task.offer(self._tree.plan(end, Status.RETRIEVED))
         actions = [node.action for node in self._tree.path(end) if node.action is not None]
         certainty = rehearsed(self._search, actions, self._samples(), clearance)
         self._left -= 1
