@@ -36,6 +36,11 @@ def entry_point(function: Callable[P, T]) -> Callable[P, T]:
     return made
 
 
+def compile_for(function: Callable[..., object], *arguments: object) -> None:
+    """Compile an entry point for arguments of the types of these, or load it from disk; it is not called."""
+    function.compile(tuple(map(numba.typeof, arguments)))  # type: ignore[attr-defined]
+
+
 def fingerprint() -> int:
     """A number that changes with any source file that compiled code comes from."""
     here = Path(__file__).parent

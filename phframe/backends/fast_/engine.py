@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from phframe.backends.fast_.compiled import compiled, entry_point, fingerprint
+import numpy as np
+
+from phframe.backends.fast_.compiled import compile_for, compiled, entry_point, fingerprint
 from phframe.backends.fast_.fingers import hold
 from phframe.backends.fast_.following import advance, begin
 from phframe.backends.fast_.layout import (
@@ -107,3 +109,17 @@ go_on = _make_go_on(_SOURCES)
 """Begin a motion along a path, or go on with it, until a time (s) or its end."""
 run_all = _make_run_all(_SOURCES)
 """Many motions, each from its own world; bodies and arms are overwritten by how they end."""
+
+
+def compile_all(world: FastWorld, run: FastRun) -> None:
+    """Compile every entry point, or load it from disk.
+
+    The first time this takes a minute. What the entry points have in common is compiled once per process: one after the other in
+    different processes, they would take a minute each.
+    """
+    count = len(world.bodies) - 2
+    bodies, arms, legs = world.bodies[:count, :BY_MASS].copy(), world.arm[:ARM_FIELDS].copy(), np.zeros((1, 1))
+    one, many = FastPath(legs, legs[0]), FastPath(legs, legs)
+    compile_for(reset, world, bodies, arms)
+    compile_for(go_on, world, one, run, True, 0.0)
+    compile_for(run_all, world, run, many, np.zeros(1, np.int64), bodies[None], arms[None], legs)

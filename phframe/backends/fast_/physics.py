@@ -11,14 +11,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field
 
 from phframe.backends.contract import START_ANGLE, START_POSITION
 from phframe.backends.fast_ import layout
-from phframe.backends.fast_.engine import go_on, reset
+from phframe.backends.fast_.engine import compile_all, go_on, reset
 from phframe.backends.fast_.layout import FastPath, FastRun, FastWorld
 from phframe.backends.fast_.many import run_many
 from phframe.backends.fast_.model import FastFigures, build_world, make_run
@@ -26,6 +26,8 @@ from phframe.backends.fast_.state import FastSnapshot, StateReader, legs_of
 from phframe.backends.fast_.watching import go_on_watched
 from phframe.core import (
     ArmError,
+    ArmModel,
+    BasePose,
     FloatArray,
     GripperTrajectory,
     InputError,
@@ -34,6 +36,7 @@ from phframe.core import (
     Options,
     Phase,
     Physics,
+    Scene,
     Settle,
     State,
     Stop,
@@ -75,6 +78,10 @@ class FastPhysics(Physics[FastOptions]):
     options_type = FastOptions
     executes = GripperTrajectory
     _restored: State | None = None
+
+    def __init__(self, scene: Scene, arm: ArmModel[Any], base_pose: BasePose, options: FastOptions) -> None:
+        super().__init__(scene, arm, base_pose, options)
+        compile_all(self.world, self._run)
 
     @cached_property
     def world(self) -> FastWorld:
