@@ -29,6 +29,10 @@ set_max_force: Callable[[Handle, float], None] = lib.cpConstraintSetMaxForce
 """Set the most that a joint gives (N)."""
 max_force: Callable[[Handle], float] = lib.cpConstraintGetMaxForce
 """The most that a joint gives (N)."""
+_position: Callable[[Handle], Any] = lib.cpBodyGetPosition
+_velocity: Callable[[Handle], Any] = lib.cpBodyGetVelocity
+_angle: Callable[[Handle], float] = lib.cpBodyGetAngle
+_angular_velocity: Callable[[Handle], float] = lib.cpBodyGetAngularVelocity
 kind_of: Callable[[Handle], int] = lib.cpShapeGetCollisionType
 """The collision type of a shape."""
 
@@ -48,7 +52,7 @@ class ChipmunkBody:
     @property
     def position(self) -> Point:
         """Where its centre is (m)."""
-        found = lib.cpBodyGetPosition(self.handle)
+        found = _position(self.handle)
         return found.x, found.y
 
     @position.setter
@@ -58,7 +62,7 @@ class ChipmunkBody:
     @property
     def angle(self) -> float:
         """How far it is turned (rad)."""
-        return float(lib.cpBodyGetAngle(self.handle))
+        return _angle(self.handle)
 
     @angle.setter
     def angle(self, value: float) -> None:
@@ -67,7 +71,7 @@ class ChipmunkBody:
     @property
     def velocity(self) -> Point:
         """Of its centre (m/s)."""
-        found = lib.cpBodyGetVelocity(self.handle)
+        found = _velocity(self.handle)
         return found.x, found.y
 
     @velocity.setter
@@ -77,7 +81,7 @@ class ChipmunkBody:
     @property
     def angular_velocity(self) -> float:
         """How fast it turns (rad/s)."""
-        return float(lib.cpBodyGetAngularVelocity(self.handle))
+        return _angular_velocity(self.handle)
 
     @angular_velocity.setter
     def angular_velocity(self, value: float) -> None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from collections import deque
 
-import numpy as np
-
 from phframe.backends.contract import START_ANGLE, START_POSITION, first_contacts, force_reason, touch_reason
 from phframe.backends.pymunk_ import chipmunk
 from phframe.backends.pymunk_.braking import Pace, pace
@@ -72,7 +70,7 @@ class PymunkDrive:
         self._world, self._trajectory, self._step = world, trajectory, step
         self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
         self._acceleration = acceleration
-        self._ticks = np.rint(trajectory.times / step).astype(int).tolist()
+        self._ticks = [round(time / step) for time in trajectory.times.tolist()]
         self._poses: list[Pose] = trajectory.poses.tolist()
         window = max(1, round(FORCE_WINDOW / step))
         self._impulses: deque[float] = deque([0.0] * window, window)
@@ -241,8 +239,8 @@ class PymunkDrive:
         """Step until a number of steps or an end, and keep the mean force of the last 20 ms; the hot path."""
         world, dt, step, impulse_of = self._world, self._step, chipmunk.step, chipmunk.impulse_of
         space, drive, begun = world.space.handle, world.arm.drive, world.begun
-        impulses, lookout, begin = self._impulses, self._lookout, world.tick
-        total, window, largest = sum(impulses), len(impulses), 0.0
+        impulses, lookout, watched, begin = self._impulses, self._lookout, self._watch is not None, world.tick
+        total, window, largest, full = sum(impulses), len(impulses), 0.0, self._full_impulse
         for world.tick in range(begin + 1, end + 1):
             if world.tick >= lookout.due:
                 lookout.look()
@@ -251,10 +249,10 @@ class PymunkDrive:
             total += impulse - impulses[0]
             impulses.append(impulse)
             mean = total / window
-            if impulse > 0.0 and (mean > largest or mean >= self._full_impulse):
+            if impulse > 0.0 and (mean > largest or mean >= full):
                 largest = max(largest, mean)
                 self._weigh(mean)
-            if self._period is not None:
+            if watched:
                 self._look()
             if begun:
                 self._note_touches()
