@@ -57,6 +57,8 @@ Sample = Callable[[int], Sequence[Particle]]
 """As many samples of the world at the task's start as are asked for."""
 Reach = Callable[[State, Action], Unreachable | None]
 """Whether the arm that will carry an action out can, from a state; None: it can."""
+ObjectReach = Callable[[State, str], Unreachable | None]
+"""Whether the arm that will carry the plan out can have an object grasped where it stands in a state; None: it can."""
 
 
 class Task:
@@ -91,6 +93,7 @@ class Task:
         reach: Reach | None = None,
         confirm: Apply | None = None,
         sample: Sample | None = None,
+        object_reach: ObjectReach | None = None,
         steered: SupportsPropagation[Any] | None = None,
         begin_steering: Begin | None = None,
         advisor: Advisor = NOBODY,
@@ -100,6 +103,7 @@ class Task:
         self._confirm, self._sample = confirm, sample
         self._apply, self._apply_many, self._topology = apply, apply_many, topology
         self._reach, self._steered, self._begin_steering = reach, steered, begin_steering
+        self._object_reach = object_reach
         self._advisor, self._began = advisor, time.perf_counter()
         self._cost = Cost()
         self._offered: Plan | None = None
@@ -175,6 +179,24 @@ class Task:
         began = time.perf_counter()
         try:
             return self._reach(self.start if state is None else state, action)
+        finally:
+            self._cost += Cost(motion_planning=time.perf_counter() - began)
+
+    def out_of_reach(self, object_id: str, state: State | None = None) -> Unreachable | None:
+        """Why the arm that will carry the plan out can have an object grasped at no yaw, even in an empty shelf.
+
+        None: there is a yaw, or it is not known. Takes some tenths of a second where there is one, and seconds where
+        there is none; counts as motion planning.
+
+        Args:
+            object_id: The object.
+            state: In which it stands where it does; None: the task's start.
+        """
+        if self._object_reach is None:
+            return None
+        began = time.perf_counter()
+        try:
+            return self._object_reach(self.start if state is None else state, object_id)
         finally:
             self._cost += Cost(motion_planning=time.perf_counter() - began)
 

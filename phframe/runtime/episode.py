@@ -179,6 +179,7 @@ class _Run:
             reach=self._execution.unreachable,
             confirm=None if confirmation is None else confirmation.apply,
             sample=None if particles is None else lambda number: particles.draw(start, number),
+            object_reach=self._execution.out_of_reach,
             advisor=self._aids.advisor,
         )
         plan = self._planner.plan(task)

@@ -37,7 +37,7 @@ from phframe.core import (
     Watch,
 )
 from phframe.core.particle import Apply
-from phframe.core.task import Pair, Reach, Sample
+from phframe.core.task import ObjectReach, Pair, Reach, Sample
 from phframe.runtime.world import World, WorldSpec
 
 
@@ -107,6 +107,7 @@ class PlanningWorld(World):
         reach: Reach | None = None,
         confirm: Apply | None = None,
         sample: Sample | None = None,
+        object_reach: ObjectReach | None = None,
         advisor: Advisor = NOBODY,
     ) -> Task:
         """The problem of achieving a goal from a state in this world.
@@ -123,6 +124,7 @@ class PlanningWorld(World):
             reach: Whether the arm that will carry the plan out can follow an action; None: not known.
             confirm: Simulates an action in the engine that will carry the plan out; None: that is this world's.
             sample: Draws samples of what the world may be; None: what is believed of it is certain.
+            object_reach: Whether that arm can have an object grasped where it stands; None: not known.
             advisor: Whom the planner may ask.
         """
         at_once = isinstance(self.physics, SupportsManySimulations)
@@ -141,6 +143,7 @@ class PlanningWorld(World):
             reach=reach,
             confirm=confirm,
             sample=sample,
+            object_reach=object_reach,
             steered=self.physics if isinstance(self.physics, SupportsPropagation) else None,
             begin_steering=self._begin_steering,
             advisor=advisor,

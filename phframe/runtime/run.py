@@ -25,6 +25,7 @@ from phframe.runtime.aids import Aids
 from phframe.runtime.confirmation import Confirmation
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
+from phframe.runtime.mounting import Told, mounted
 from phframe.runtime.noise import Noise
 from phframe.runtime.observer import Observer
 from phframe.runtime.particles import Particles
@@ -62,7 +63,7 @@ def run(
     with ExitStack() as stack:
         for observer in observers:
             stack.callback(observer.close)
-        ready = prepare(spec)
+        ready = prepare(mounted(spec, _teller(observers)))
         planning = stack.enter_context(PlanningWorld(ready.plan_world, spec.workers))
         execution = stack.enter_context(ExecutionWorld(ready.world))
         shape = execution.arm.shape
@@ -82,6 +83,14 @@ def run(
             sensor,
             Aids(advisor, confirmation, particles),
         )
+
+
+def _teller(observers: Sequence[Observer]) -> Told:
+    def told(done: int, of: int) -> None:
+        for observer in observers:
+            observer.mounting(done, of)
+
+    return told
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,7 +35,7 @@ class Backwards(OneByOne):
 
     def simulate_many(
         self, states: Sequence[State], trajectories: Sequence[Trajectory], **how: object
-    ) -> list[Transition]:  # type: ignore[override]
+    ) -> list[Transition]:
         found = super().simulate_many(states, trajectories, **how)[::-1]  # type: ignore[arg-type]
         return found or super().simulate_many([self.scene.initial_state()], [self._still()])
 
@@ -51,7 +51,7 @@ class Deaf(OneByOne):
 
     def simulate_many(
         self, states: Sequence[State], trajectories: Sequence[Trajectory], **how: object
-    ) -> list[Transition]:  # type: ignore[override]
+    ) -> list[Transition]:
         return super().simulate_many(states, trajectories)
 
 

@@ -67,6 +67,10 @@ UNSUITED = {
         "what_leaves_at_the_mouth_has_spilled",
     ): "with all joints straight to where it begins, a finger meets the board",
     (
+        "baxter in fast",
+        "sliding_objects_stop_where_friction_says",
+    ): "an object sits between its fingers, and leaves them within a step or two of where it stops",
+    (
         "baxter in pybullet",
         "a_load_too_heavy_stalls_the_arm",
     ): "pushed 0.10 m above the board, the load topples below the limit",
@@ -129,7 +133,7 @@ def physics(backend: str, arm: str) -> PhysicsUnderTest:
 )
 def test_physics(backend: str, arm: str, check: Check[PhysicsUnderTest]) -> None:
     for pair in ((arm, check.name), (f"{arm} in {backend}", check.name)):
-        if backend not in ("pymunk", "fast") and pair in UNSUITED:
+        if pair in UNSUITED and (backend not in ("pymunk", "fast") or pair[0] != arm):
             pytest.skip(UNSUITED[pair])
     try:
         subject = physics(backend, arm)

@@ -155,7 +155,9 @@ def calibrate(
     judged = tuple(
         Judged(
             name,
-            *(observed.score(values, backend) for values in (tuning.before, fitted, tuning.shipped)),
+            before=observed.score(tuning.before, backend),
+            fitted=observed.score(fitted, backend),
+            shipped=observed.score(tuning.shipped, backend),
             beside=observed.score(reference.shipped),
         )
         for name, observed in sets

@@ -39,7 +39,7 @@ def test_many_are_as_one_by_one(stop: Stop | None) -> None:
         alone = [stand.physics.simulate(state, trajectory, stop=stop) for state, trajectory in pairs]
         physics = stand.physics
         assert isinstance(physics, SupportsManySimulations)
-        together = physics.simulate_many(*zip(*pairs, strict=True), stop=stop)  # type: ignore[call-arg]
+        together = physics.simulate_many(*zip(*pairs, strict=True), stop=stop)
         assert together == alone
         assert len({transition.state for transition in together}) > 5
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from phframe.core import FloatArray, GripperPath, Scene, State, Stop, StopCause
-from phframe.testing.physics.paths import MIDDLE, SHELF, crowd, cylinder, drive_in, grasp, scene_of, sweep
+from phframe.core import FloatArray, GripperPath, Phase, Scene, State, Stop, StopCause
+from phframe.testing.physics.paths import MIDDLE, SHELF, crowd, cylinder, drive_in, grasp, path, scene_of, sweep
 from phframe.testing.physics.stand import WatchLog, on_stand
 from tests.backends.fast_.stand import ARM, fast, set_moving, subject
 
@@ -64,10 +64,7 @@ def test_what_is_held_drags_along_the_board(moving: bool) -> None:
         if moving:
             set_moving(physics, 0, (0.0, -0.05, 0.0))
         assert gripped.arm is not None
-        from phframe.core import Phase
-        from phframe.testing.physics.paths import path
-
-        out = path([gripped.arm.gripper, [0.1, MIDDLE, 0.0]], [Phase.WITHDRAW], speed=0.2)
+        out = path(np.array([gripped.arm.gripper, [0.1, MIDDLE, 0.0]]), [Phase.WITHDRAW], speed=0.2)
         motion = physics.execute(stand.trajectory(gripped, out), settle=None)
         assert motion.complete
         assert motion.largest_force == pytest.approx(0.25 * 2.0 * 9.81, rel=0.02)
