@@ -132,7 +132,8 @@ class _LazySearch:
         self._fan = WIDE_FAN if options.fan == "wide" else ()
         self._reach = ReachOfTarget(task, self._pushing, self._fan)
         self._known = KnownTransitions(task.earlier)
-        self._confirmed = Confirmed(task, self._search) if options.confirm and task.confirms else None
+        confirmed = Confirmed(task, self._search, harmful=options.harmful == "allowed")
+        self._confirmed = confirmed if options.confirm and task.confirms else None
         self._queue: list[tuple[float, int, _Candidate]] = []
         self._order = count()
         self._seen = {_alike(task.start)}

@@ -11,7 +11,7 @@ from phframe.pushing.deviation import Deviation
 from phframe.pushing.fan import WIDE_FAN, Drive, drives
 from phframe.pushing.grasp import Grasp, GraspFinder, grasp_action
 from phframe.pushing.grouping import Rectangle, bounding_rectangle, closest_component
-from phframe.pushing.groups import Group, Grouping, Radii, closest_groups
+from phframe.pushing.groups import Grouping, ObstacleGroup, Radii, closest_groups
 from phframe.pushing.grtc import GrtcDeviation, GrtcSearch, Obstruction, StraightPushDecision
 from phframe.pushing.harm import MOVED_TARGET, harm
 from phframe.pushing.known_transitions import KnownTransitions
@@ -44,11 +44,11 @@ __all__ = [
     "Drive",
     "Grasp",
     "GraspFinder",
-    "Group",
     "Grouping",
     "GrtcDeviation",
     "GrtcSearch",
     "KnownTransitions",
+    "ObstacleGroup",
     "Obstruction",
     "Proposal",
     "Push",

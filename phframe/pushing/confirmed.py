@@ -15,10 +15,11 @@ class Confirmed:
     Args:
         task: The task; it must be able to confirm.
         search: Whose tree it is.
+        harmful: Whether actions that do harm count as coming true.
     """
 
-    def __init__(self, task: Task, search: PushSearch) -> None:
-        self._task, self._search, self._tree = task, search, search.tree
+    def __init__(self, task: Task, search: PushSearch, *, harmful: bool = False) -> None:
+        self._task, self._search, self._tree, self._harmful = task, search, search.tree, harmful
         self._held = {ROOT: task.start}  # states with the executing arm where it stands
         self._twins: dict[int, int | None] = {ROOT: ROOT}  # None: it does not come true
 
@@ -68,9 +69,9 @@ class Confirmed:
         scene = self._search.pushing.scene
         if action.kind is ActionKind.GRASP:
             assessed = self._search.assess(action, made)
-            return assessed.reason or harm(scene, before, made, None)
+            return assessed.reason or ("" if self._harmful else harm(scene, before, made, None))
         pushes_target = scene.target in action.moves
-        why = harm(scene, before, made, *((None,) if pushes_target else ()))
+        why = "" if self._harmful else harm(scene, before, made, *((None,) if pushes_target else ()))
         return why or ("nothing moved" if is_unchanged(before, made.state) else "")
 
 

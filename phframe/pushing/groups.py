@@ -19,7 +19,7 @@ Radii = Literal["all", "smallest"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Group:
+class ObstacleGroup:
     """The closest component at a radius.
 
     Attributes:
@@ -42,7 +42,7 @@ class Group:
         return replace(decision, why=why, radius=self.radius, diagram=self.diagram, labels=self.labels)
 
 
-def closest_groups(pushing: Pushing, problem: PushProblem, grouping: Grouping, radii: Radii) -> list[Group]:
+def closest_groups(pushing: Pushing, problem: PushProblem, grouping: Grouping, radii: Radii) -> list[ObstacleGroup]:
     """The closest component at each radius that counts, and the closest object alone; each group once.
 
     Args:
@@ -51,21 +51,21 @@ def closest_groups(pushing: Pushing, problem: PushProblem, grouping: Grouping, r
         grouping: ``homology``: at the usable radii, the threshold h and the last death; ``single``: one object alone.
         radii: ``smallest``: only PHIA's radius, the smallest usable one or h.
     """
-    found: dict[tuple[int, ...], Group] = {}
+    found: dict[tuple[int, ...], ObstacleGroup] = {}
     for group in _groups(pushing, problem, grouping, radii):
         found.setdefault(tuple(group.chosen.tolist()), group)
     return list(found.values())
 
 
-def _groups(pushing: Pushing, problem: PushProblem, grouping: Grouping, radii: Radii) -> Iterator[Group]:
+def _groups(pushing: Pushing, problem: PushProblem, grouping: Grouping, radii: Radii) -> Iterator[ObstacleGroup]:
     local, axis = problem.local, problem.corridor.axis
     if grouping == "homology":
         diagram = pushing.diagram(problem)
         for radius in _radii(pushing, diagram, radii):
             labels = pushing.components(problem, radius)
-            yield Group(closest_component(local, labels, axis), radius, diagram, labels)
+            yield ObstacleGroup(closest_component(local, labels, axis), radius, diagram, labels)
     if grouping == "single" or radii == "all":
-        yield Group(closest_component(local, np.arange(len(local)), axis))
+        yield ObstacleGroup(closest_component(local, np.arange(len(local)), axis))
 
 
 def _radii(pushing: Pushing, diagram: PersistenceDiagram, radii: Radii) -> list[float]:

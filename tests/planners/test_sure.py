@@ -288,20 +288,22 @@ def topples_first(made: Transition, action: Action) -> Transition:
     return replace(made, state=replace(made.state, conditions=tuple(fallen)))
 
 
-def harmful(scene: Scene, options: dict[str, Any]) -> Plan:
-    """In a world where every push topples something."""
+def harmful(scene: Scene, options: dict[str, Any], *, confirms: bool = False) -> Plan:
+    """In a world where every push topples something; so it does in the one that executes, if there is another."""
     with PlanningWorld(WorldSpec(scene)) as world:
-        task = task_in(world)
-        task._apply = lambda state, action, stop: topples_first(world.apply(state, action, stop), action)
-        return Sure(SureOptions.parse({"max_nodes": 40, **options}, "sure")).plan(task)
+        topples: Apply = lambda state, action, stop: topples_first(world.apply(state, action, stop), action)  # noqa: E731
+        task = task_in(world, confirm=topples if confirms else None)
+        task._apply = topples
+        return Sure(SureOptions.parse({"max_nodes": 12, **options}, "sure")).plan(task)
 
 
-def test_harm_is_a_dead_end_unless_it_is_allowed() -> None:
-    plan = harmful(ONE, {"target_pushes": False})
+@pytest.mark.parametrize("confirms", [False, True])
+def test_harm_is_a_dead_end_unless_it_is_allowed(confirms: bool) -> None:
+    plan = harmful(ONE, {"target_pushes": False}, confirms=confirms)
     assert plan.status is Status.FAILED
     assert "o0 is toppled" in plan.reason
     assert {node.parent for node in pushes_of(plan)} == {ROOT}
-    allowed = harmful(ONE, {"target_pushes": False, "harmful": "allowed"})
+    allowed = harmful(ONE, {"target_pushes": False, "harmful": "allowed"}, confirms=confirms)
     assert allowed.status is Status.RETRIEVED
     assert Condition.TOPPLED in allowed.expected[-1].conditions
 

@@ -125,9 +125,10 @@ def test_what_blocks_the_grasp_counts_although_it_is_beside_the_corridor() -> No
         assert not drive.by_wall
 
 
-def mirror_of(made: Bench) -> dict[int, tuple[int, bool]]:
+def mirror_of(made: Bench) -> dict[int, tuple[bool, bool]]:
+    """By angle whether the target can be grasped, and whether a wall is what blocks that."""
     return {
-        round(math.degrees(drive.angle)): (drive.blocking, isinstance(drive.grasp, Grasp))
+        round(math.degrees(drive.angle)): (isinstance(drive.grasp, Grasp), drive.by_wall)
         for drive in made.drives(*WIDE_FAN)
     }
 

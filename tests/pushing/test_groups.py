@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phframe.core import Infeasible
-from phframe.pushing import Deviation, Group, PushProblem, closest_component, closest_groups
+from phframe.pushing import Deviation, ObstacleGroup, PushProblem, closest_component, closest_groups
 from phframe.runtime.scenes import find_scene
 from tests.planners.solved import PUBLISHED
 from tests.pushing.parts import often, scene_of
@@ -25,7 +25,7 @@ def problem_of(made: Bench) -> PushProblem | None:
     return found if len(found.members) else None
 
 
-def members(group: Group) -> tuple[int, ...]:
+def members(group: ObstacleGroup) -> tuple[int, ...]:
     return tuple(group.chosen.tolist())
 
 
