@@ -41,6 +41,8 @@ from phframe.urdf.model import Robot
 
 SAME_POSITION, SAME_YAW = 5e-3, 0.03
 """A path that begins no farther than this (m, rad) from where the gripper is goes on from there."""
+STRIDE = 6
+"""Every how many waypoints is looked at where a path is beyond the arm, to say how far it gets."""
 RESOLUTION = 0.03
 """Most that a joint moves between two configurations of a joint path that are checked for collisions (rad or m)."""
 
@@ -163,13 +165,22 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
 
     def _beyond_reach(self, paths: CartesianPathFollower, seeds: Sequence[FloatArray]) -> Unreachable | None:
         """That inverse kinematics cannot have the deepest pose of a path, turned as far as may be, if so: the quick no."""
-        row, tolerance = paths.deepest, self.options.yaw_tolerance
-        for yaw in (0.0, tolerance, -tolerance):
-            target = paths.follower(row).target(paths.pose(row) + np.array([0.0, 0.0, yaw]))
-            if any(self._kinematics.descend_to(target, start) is not None for start in self._kinematics.starts(seeds)):
-                return None
-        why = f"out of reach: inverse kinematics finds no joint values for {pose_text(paths.pose(row))}"
-        return Unreachable(0.0, why, 0)
+        tolerance = self.options.yaw_tolerance
+        if any(self._solved(paths, paths.deepest, yaw, seeds) is not None for yaw in (0.0, tolerance, -tolerance)):
+            return None
+        row, q = paths.gate, self._solved(paths, paths.gate, 0.0, seeds)
+        while q is not None and row < paths.deepest:
+            row = min(row + STRIDE, paths.deepest)
+            q = self._kinematics.descend_to(paths.follower(row).target(paths.pose(row)), q)
+        return paths.unreachable(row, "out of reach: inverse kinematics finds no joint values")
+
+    def _solved(
+        self, paths: CartesianPathFollower, row: int, yaw: float, seeds: Sequence[FloatArray]
+    ) -> FloatArray | None:
+        """Joint values ``(dof,)`` for a pose of a path, the gripper turned by a yaw (rad), or None."""
+        target = paths.follower(row).target(paths.pose(row) + np.array([0.0, 0.0, yaw]))
+        found = (self._kinematics.descend_to(target, start) for start in self._kinematics.starts(seeds))
+        return next((q for q in found if q is not None), None)
 
     def _joined(self, problem: _Problem, approach: FloatArray, found: JointPath) -> JointTrajectory:
         """The motion along corners ``(k, dof)`` and then a joint path."""

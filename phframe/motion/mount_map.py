@@ -14,7 +14,7 @@ from phframe.motion.straight_reach import ROUGHLY, StraightReach
 
 ACROSS = (0.0, 0.1, -0.1)
 """From the default base pose along the mouth (m)."""
-UP = (0.0, 0.1, -0.1)
+UP = (0.0, 0.05, -0.05, -0.1)
 """From the default base pose upwards (m)."""
 ENOUGH = 2
 """Free yaws to the target, from which on more of them do not count for more than a base that is nearer the default."""
@@ -29,7 +29,7 @@ class Mount:
     Attributes:
         arm: The arm, as one of its options has it.
         base_pose: Where its base stands.
-        yaws: Of the gripper (rad), at which the straight way to the target is free in an empty shelf.
+        yaws: Of the gripper (rad), at which the straight way to the target and out again is free in an empty shelf.
     """
 
     arm: ArmModel[Any]
@@ -87,7 +87,7 @@ def straight_reach(arm: ArmModel[Any], shelf: Shelf, base_pose: BasePose) -> Str
 
 def _grasp_yaws(reach: StraightReach, scene: Scene, stride: int) -> tuple[float, ...]:
     item = scene.objects[scene.target_index]
-    return reach.grasp_yaws(item.position, item.radius, stride)
+    return reach.grasp_yaws(item.position, item.radius, stride, back=True)
 
 
 def _moved(base_pose: BasePose, across: float, up: float) -> BasePose:

@@ -11,7 +11,7 @@ import numpy as np
 from phframe.core import ArmModel, BasePose, FloatArray, GripperPath, Shelf
 from phframe.core.value import Floats, Value
 from phframe.geometry.arm_view import ArmView
-from phframe.motion.straight_way import YAWS, straight_way_in
+from phframe.motion.straight_way import YAWS, straight_way
 
 if TYPE_CHECKING:
     from phframe.motion.straight_reach import StraightReach
@@ -110,7 +110,7 @@ def _by_outlines(
     view = ArmView(shelf, arm.shape.outlines(opening), 0.0)
     for row, column in np.ndindex(len(widths), len(depths)):
         place = float(depths[column]), float(widths[row])
-        ways = ((yaw, straight_way_in(view, place, yaw, opening)) for yaw in YAWS)
+        ways = ((yaw, straight_way(view, place, yaw, opening)) for yaw in YAWS)
         free = (yaw for yaw, way in ways if isinstance(way, GripperPath) and _has(arm, base_pose, way.poses[-1]))
         yield from (((row, column), yaw) for yaw in [next(free, None)] if yaw is not None)
 

@@ -29,7 +29,7 @@ from phframe.motion.differential_ik import DifferentialIK
 from phframe.motion.null_space_objective import NullSpaceObjective
 from phframe.motion.options import ArticulatedOptions
 from phframe.motion.pinocchio_ import Kinematics
-from phframe.motion.straight_way import YAWS, straight_way_in, way_length
+from phframe.motion.straight_way import YAWS, straight_way, way_length
 from phframe.motion.surface_points import SurfacePoints
 from phframe.urdf.description import ArmDescription
 from phframe.urdf.model import Robot
@@ -47,7 +47,7 @@ EMPTY = State(np.empty((0, 7)), ())
 
 
 class StraightReach:
-    """Straight ways in over an empty shelf, from one base pose; the way out is the same, backwards.
+    """Straight ways into an empty shelf, from one base pose.
 
     The fingertip goes straight ahead at constant height, the gripper level, along its yaw. A way is free where the arm's
     outlines pass between the walls, and joints follow it continuously from one of the arm's seed configurations with
@@ -88,7 +88,14 @@ class StraightReach:
         return tuple(yaw for yaw in YAWS if isinstance(self.way(place, yaw, opening, stride), JointPath))
 
     def way(
-        self, place: Sequence[float], yaw: float, opening: float, stride: int = ROUGHLY, attempts: int = 0
+        self,
+        place: Sequence[float],
+        yaw: float,
+        opening: float,
+        stride: int = ROUGHLY,
+        attempts: int = 0,
+        *,
+        back: bool = False,
     ) -> JointPath | Unreachable:
         """Joints for the way in to a place at a yaw, or how far they get, and why no farther.
 
@@ -98,20 +105,30 @@ class StraightReach:
             opening: Distance between the fingers on the way (m).
             stride: Every how many waypoints is looked at.
             attempts: Configurations to be tried at random where none of the seeds leads there.
+            back: Whether the same joints must also take the gripper out of the shelf again.
         """
-        path = straight_way_in(self._view(opening), place, yaw, opening)
+        path = straight_way(self._view(opening), place, yaw, opening, back=back)
         if isinstance(path, Unreachable):
             return path
-        if not attempts and not self._can_end(self._follower(opening).target(path.poses[-1])):
+        if not attempts and not self._can_end(self._follower(opening).target(path.poses[1])):
             return Unreachable(0.0, "out of reach: inverse kinematics finds no joint values for the end of the way", 0)
         return self._followed(path, stride, attempts)
 
-    def grasp_yaws(self, position: Sequence[float], radius: float, stride: int = ROUGHLY) -> tuple[float, ...]:
+    def grasp_yaws(
+        self, position: Sequence[float], radius: float, stride: int = ROUGHLY, *, back: bool = False
+    ) -> tuple[float, ...]:
         """Those of ``YAWS`` (rad) at which the way to a grasp is free; arguments as for ``grasp``."""
-        return tuple(yaw for yaw in YAWS if isinstance(self.grasp(position, radius, yaw, stride), JointPath))
+        return tuple(yaw for yaw in YAWS if isinstance(self.grasp(position, radius, yaw, stride, back=back), JointPath))
 
     def grasp(
-        self, position: Sequence[float], radius: float, yaw: float, stride: int = ROUGHLY, attempts: int = 0
+        self,
+        position: Sequence[float],
+        radius: float,
+        yaw: float,
+        stride: int = ROUGHLY,
+        attempts: int = 0,
+        *,
+        back: bool = False,
     ) -> JointPath | Unreachable:
         """The way to a grasp of an object, as ``way``.
 
@@ -121,11 +138,12 @@ class StraightReach:
             yaw: Of the gripper (rad).
             stride: As for ``way``.
             attempts: As for ``way``.
+            back: As for ``way``.
         """
         place = position[0] + PAST * math.cos(yaw), position[1] + PAST * math.sin(yaw)
         shape = self._arm.shape
         opening = min(max(2.0 * (radius + ROOM), shape.min_opening), shape.max_opening)
-        return self.way(place, yaw, opening, stride, attempts)
+        return self.way(place, yaw, opening, stride, attempts, back=back)
 
     def out_of_reach(self, position: Sequence[float], radius: float) -> Unreachable | None:
         """Why an object can be grasped at none of ``YAWS`` in an empty shelf: how far that gets at best; None: it can."""
@@ -145,10 +163,10 @@ class StraightReach:
         """How deep (m, at most ``deepest``) the fingertip gets straight ahead at yaw 0 with its y at ``across`` (m)."""
         view = self._view(opening)
         start = deepest - way_length(view, (deepest, across), 0.0)
-        path = straight_way_in(view, (deepest, across), 0.0, opening)
+        path = straight_way(view, (deepest, across), 0.0, opening)
         if isinstance(path, Unreachable):
             deepest = start + path.where - SHORT
-            path = straight_way_in(view, (deepest, across), 0.0, opening)
+            path = straight_way(view, (deepest, across), 0.0, opening)
         if isinstance(path, Unreachable):
             return start
         found = self._followed(path, ROUGHLY, 0)

@@ -13,9 +13,12 @@ from phframe.geometry.arm_view import ArmView
 
 YAWS = tuple(math.radians(degrees) for degrees in (0, 10, -10, 20, -20, 30, -30, 40, -40))
 """Of the gripper (rad), tried in this order."""
+BOTH = Phase.REACH, Phase.WITHDRAW
 
 
-def straight_way_in(view: ArmView, place: Sequence[float], yaw: float, opening: float) -> GripperPath | Unreachable:
+def straight_way(
+    view: ArmView, place: Sequence[float], yaw: float, opening: float, *, back: bool = False
+) -> GripperPath | Unreachable:
     """The straight path from before the mouth to a place, or where a wall is in its way.
 
     Args:
@@ -23,6 +26,7 @@ def straight_way_in(view: ArmView, place: Sequence[float], yaw: float, opening: 
         place: Where the fingertip is to be: x, y in the shelf frame (m).
         yaw: Of the gripper (rad).
         opening: Distance between the fingers (m).
+        back: Whether the path goes back to where it began.
     """
     degrees, ahead = math.degrees(yaw), np.array([math.cos(yaw), math.sin(yaw)])
     if ahead[0] < LEAST_AHEAD:
@@ -31,8 +35,9 @@ def straight_way_in(view: ArmView, place: Sequence[float], yaw: float, opening: 
     travel = float(view.walls(yaw).travel(tip - length * ahead, ahead, length))
     if travel < length:
         return Unreachable(travel, f"the arm meets a wall on its way in at yaw {degrees:.0f} degrees", 0)
-    poses = np.array([[*(tip - length * ahead), yaw], [*tip, yaw]])
-    return GripperPath(poses, (Phase.REACH,), {Phase.REACH: PhaseRule(1.0, opening, Contacts.NONE)})
+    before, there = np.array([*(tip - length * ahead), yaw]), np.array([*tip, yaw])
+    poses, phases = ([before, there, before], BOTH) if back else ([before, there], BOTH[:1])
+    return GripperPath(np.array(poses), phases, dict.fromkeys(phases, PhaseRule(1.0, opening, Contacts.NONE)))
 
 
 def way_length(view: ArmView, place: Sequence[float], yaw: float) -> float:

@@ -15,6 +15,7 @@ from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.core import ArmModel, BasePose, Cylinder, Scene, SceneObject, Shelf, compose, inverse, planar_pose
 from phframe.motion.reachability import INSET, reachability
 from phframe.motion.straight_way import YAWS
+from phframe.registry import Kind, create
 from tests.prism import PRISM
 
 SHELF = Shelf(0.594, 0.584)
@@ -74,9 +75,8 @@ def test_what_is_refused_is_what_arm_reach_says(away: float, capsys: pytest.Capt
     from phframe.cli.reaching import run
     from phframe.core.arm import LEAST_SERVED
     from phframe.runtime.scenes import find_scene
-    from tests.arms.baxter_arm import baxter
 
-    arm, shelf = baxter("left"), find_scene("papallas/s02").shelf
+    arm, shelf = create(Kind.ARM, "baxter"), find_scene("papallas/s02").shelf
     own = arm.default_base_pose(shelf)
     base_pose = own.x - away, own.y, own.z, own.yaw
     run("baxter", "papallas/s02", base_pose, None, {"arm": {}, "scenes": {}}, as_json=True, force=False)
