@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from phframe.core import State
+from phframe.core import FloatArray, State
 from phframe.pushing.corridor import corridor_at
 from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.push_search import Proposal
@@ -36,4 +36,16 @@ def target_pushes(pushing: Pushing, state: State) -> Iterator[Proposal]:
             corridor = corridor_at(angle, target, distance - radius, PAST_TARGET)
             members = np.array([row])
             problem = PushProblem(state, corridor, members, corridor.to_local(state.positions[members]))
-            yield from pushing.sweeps(problem, np.array([0]))
+            for push in pushing.sweeps(problem, np.array([0])):
+                if _has_room(pushing, push, target, distance):
+                    yield push
+
+
+def _has_room(pushing: Pushing, push: Proposal, target: FloatArray, distance: float) -> bool:
+    """Whether the target would still stand between the walls."""
+    scene, sweep, corridor = pushing.scene, push[0].sweep, push[0].corridor
+    if sweep is None or corridor is None:
+        return False
+    radius, y = float(scene.radii[scene.target_index]), target[1]
+    pushed = float(y + sweep.direction * distance * math.cos(corridor.angle))
+    return radius <= pushed <= scene.shelf.width - radius
