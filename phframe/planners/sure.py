@@ -77,8 +77,8 @@ class SureOptions(PushingOptions):
         confirm: Whether a plan is simulated in the engine that executes it, if that is another one, before the arm moves;
             one that does not come true there is a dead end.
         particles: Samples of the world in which a plan is rehearsed where noise is declared; 0: none.
-        certain: Share of the samples in which a plan must be clean to be carried out at once ...
-        rehearsals: ... until so many plans were rehearsed: then the surest of them is.
+        certain: Share of the samples in which a plan must be clean to be carried out at once.
+        rehearsals: Plans that are rehearsed at most: then the surest of them is carried out.
         max_nodes: Nodes of the search tree after which to give up.
     """
 
@@ -136,6 +136,7 @@ class _LazySearch:
         self._confirmed = confirmed if options.confirm and task.confirms else None
         self._queue: list[tuple[float, int, _Candidate]] = []
         self._order = count()
+        self._least: dict[int, int] = {}  # obstacles that block the freest drive, at each node
         self._seen = {_alike(task.start)}
         self._replaced: set[int] = set()  # nodes from whose twins the search goes on in their place
         self._rehearsals = Rehearsals(
@@ -183,8 +184,8 @@ class _LazySearch:
         if (plan := self._grasp(node, found)) is not None or self._is_over(node):
             return plan
         depth = self._tree.depth(node)
-        if depth >= self._options.max_actions:
-            self._tree.close(node, f"no grasp is clean after {depth} actions")
+        if why := self._hopeless(node, found):
+            self._tree.close(node, why)
             return None
         for drive in found:
             if drive.blocking and not drive.by_wall and not self._reach.refuses(drive):
@@ -192,6 +193,16 @@ class _LazySearch:
         if self._options.target_pushes:
             self._add(depth + 1 + (0.0 if all(drive.by_wall for drive in found) else OF_TARGET), _Candidate(node))
         return None
+
+    def _hopeless(self, node: int, found: list[Drive]) -> str:
+        """Why nothing more is to be pushed at a node, by the options ``max_actions`` and ``patience``; empty: go on."""
+        self._least[node] = min(drive.blocking for drive in found)
+        path = [ROOT, *self._tree.rows(node)]
+        if len(path) > self._options.max_actions:
+            return f"no grasp is clean after {len(path) - 1} actions"
+        least = [self._least.get(row, len(self._pushing.scene.objects)) for row in path]
+        idle = len(least) - 1 - least.index(min(least))
+        return f"the last {idle} pushes took nothing out of the way" if idle >= self._options.patience else ""
 
     def _grasp(self, node: int, found: list[Drive]) -> Plan | None:
         """The plan that ends with a clean grasp from a node; a way out that stays between the walls comes first."""
