@@ -68,7 +68,12 @@ def drives(pushing: Pushing, state: State, fan: Sequence[float]) -> list[Drive] 
         known = any(abs(angle - corridor.angle) < SAME_ANGLE for corridor in corridors)
         if not known and math.cos(angle) > LEAST_AHEAD:
             corridors.append(corridor_at(angle, target, pushing.half_width))
-    grasps = pushing.grasps_along(state, corridors)
+    # The fan's angles are the same in every state, the paper's is not: each by themselves, what is known of the arm is kept.
+    papers = int(isinstance(problem, PushProblem))
+    grasps = [
+        *pushing.grasps_along(state, corridors[:papers]),
+        *pushing.grasps_along(state, corridors[papers:]),
+    ]
     return [_drive(pushing, state, *each) for each in zip(corridors, grasps, strict=True)]
 
 

@@ -82,32 +82,36 @@ class GraspFinder:
             rejects: Tells why an action is not to be proposed again; None: it may be.
         """
         found: list[Grasp | Infeasible] = [self._too_wide] * len(corridors)
-        for fit in self._fits:
-            left = [(place, least) for place, least in enumerate(found) if isinstance(least, Infeasible)]
-            yaws = [self._yaws(corridors[place].angle) for place, _ in left]
-            if not any(yaws):
-                break
-            reaches = Reaches(self._around, state, fit, tuple(chain.from_iterable(yaws)))
-            ends = accumulate(map(len, yaws))
-            for (place, least), its, end in zip(left, yaws, ends, strict=True):
-                rows = range(end - len(its), end)
-                found[place] = self._first(reaches, rows, corridors[place], fit, least, rejects)
+        yaws = [self._yaws(corridor.angle) for corridor in corridors]
+        ends = list(accumulate(map(len, yaws)))
+        # The same yaws with every fit, also of corridors that have their grasp: what is known of the arm at them is kept.
+        at_once = tuple(chain.from_iterable(yaws))
+        for fit in self._fits if at_once else ():
+            reaches: Reaches | None = None
+            for place, (least, its, end) in enumerate(zip(found, yaws, ends, strict=True)):
+                if isinstance(least, Infeasible):
+                    reaches = reaches or Reaches(self._around, state, fit, at_once)
+                    found[place] = self._first(
+                        reaches, range(end - len(its), end), corridors[place], fit, least, rejects
+                    )
         return found
 
     def _first(
         self, reaches: Reaches, rows: range, corridor: Corridor, fit: Fit, least: Infeasible, rejects: Rejects
     ) -> Grasp | Infeasible:
         """The first reach that nothing obstructs; where there is none, what obstructs least, the last of those alike."""
+        severity, best = _severity(least), -1
         for row in rows:
-            severity = reaches.severities[row]
-            if severity == FREE:
+            its = reaches.severities[row]
+            if its == FREE:
                 action = reaches.action(row)
                 if rejects(action) is None:
                     return self._found(reaches, row, action, corridor, fit)
-                least = min(REJECTED, least, key=_severity)
-            elif severity <= _severity(least):
-                least = reaches.obstruction(row)
-        return least
+                if _severity(REJECTED) <= severity:
+                    severity, best, least = _severity(REJECTED), -1, REJECTED
+            elif its <= severity:
+                severity, best = its, row
+        return least if best < 0 else reaches.obstruction(best)
 
     def _found(self, reaches: Reaches, row: int, action: Action, corridor: Corridor, fit: Fit) -> Grasp:
         turned = (Deviation.GRASP_TURNED,) if reaches.yaws[row] != corridor.angle else ()

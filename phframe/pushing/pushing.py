@@ -85,7 +85,9 @@ class Pushing:
         return with_room(corridor, self.scene.shelf, state.positions[inside], self._radii[inside])
 
     def _members(self, corridor: Corridor, state: State, blockers: Sequence[str] = ()) -> IntArray:
-        counts = corridor.contains(state.positions) | np.isin(self.scene.ids, list(blockers))
+        counts = corridor.contains(state.positions)
+        if blockers:
+            counts |= np.isin(self.scene.ids, list(blockers))
         counts[self.scene.target_index] = False
         return np.flatnonzero(counts & state.on_board)
 
