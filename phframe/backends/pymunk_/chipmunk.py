@@ -29,12 +29,12 @@ set_max_force: Callable[[Handle, float], None] = lib.cpConstraintSetMaxForce
 """Set the most that a joint gives (N)."""
 max_force: Callable[[Handle], float] = lib.cpConstraintGetMaxForce
 """The most that a joint gives (N)."""
+kind_of: Callable[[Handle], int] = lib.cpShapeGetCollisionType
+"""The collision type of a shape."""
 _position: Callable[[Handle], Any] = lib.cpBodyGetPosition
 _velocity: Callable[[Handle], Any] = lib.cpBodyGetVelocity
 _angle: Callable[[Handle], float] = lib.cpBodyGetAngle
 _angular_velocity: Callable[[Handle], float] = lib.cpBodyGetAngularVelocity
-kind_of: Callable[[Handle], int] = lib.cpShapeGetCollisionType
-"""The collision type of a shape."""
 
 
 class ChipmunkBody:
@@ -99,7 +99,9 @@ class ChipmunkBody:
 
 
 class ChipmunkSpace:
-    """Bodies, their shapes and the joints between them, given back together when nobody holds the space any more.
+    """Bodies, their shapes and the joints between them.
+
+    All are given back together as soon as nobody holds the space any more: none of their handles may be used then.
 
     Args:
         iterations: Of the solver, per step.
