@@ -13,6 +13,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from phframe.bench.meters.ensemble import measure_ensemble
 from phframe.bench.meters.outcomes import Outcome, Tally, deviations, run_suite, tally
 from phframe.bench.meters.overhead import measure
 from phframe.bench.meters.single import diagram_time, help_times
@@ -21,7 +22,10 @@ from phframe.core import PhframeError
 from phframe.core.files import write_file
 from phframe.runtime.scenes import scene_names
 
-WHAT = "suites: solve the published scenes; calibrate: fit a planar backend to MuJoCo"
+WHAT = (
+    "suites: solve the published scenes; calibrate: fit a planar backend to MuJoCo; "
+    "ensemble: the same sweeps in all engines"
+)
 PUBLISHED = ("vieira", "papallas")
 
 
@@ -38,6 +42,8 @@ def _measure(given: argparse.Namespace, console: Console) -> None:
     scenes = [name for name in scene_names() if name.startswith(PUBLISHED)]
     if given.what == "calibrate":
         figures = fit_in_space(console, given.scenes, scenes, given.backend)
+    elif given.what == "ensemble":
+        figures = measure_ensemble(console, given.scenes, scenes)
     elif given.what == "suites":
         figures = {"suites": _suites(console, given, scenes)}
     else:
@@ -54,11 +60,13 @@ def _measure(given: argparse.Namespace, console: Console) -> None:
 def command_line() -> argparse.ArgumentParser:
     """What can be asked for."""
     parser = argparse.ArgumentParser(prog="python -m phframe.bench.meters", description="Measure phframe.")
-    parser.add_argument("what", nargs="?", choices=["all", "suites", "calibrate"], default="all", help=WHAT)
+    parser.add_argument("what", nargs="?", choices=["all", "suites", "calibrate", "ensemble"], default="all", help=WHAT)
     parser.add_argument("--planners", nargs="+", default=["phia", "ooa"], help="planners to run on the suites")
     parser.add_argument("--backend", default="pymunk", help="in which plans are carried out, or that is fitted")
     parser.add_argument("--arm", default="planar", help="that carries them out")
-    parser.add_argument("--scenes", type=int, default=40, help="random scenes to fit to, and as many to judge by")
+    parser.add_argument(
+        "--scenes", type=int, default=40, help="random scenes to fit to, and as many to judge by; or to sweep in"
+    )
     parser.add_argument(
         "--out", type=Path, help="file for the figures; the default is runs/bench.json or runs/calibrate.json"
     )
