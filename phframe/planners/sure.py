@@ -47,9 +47,7 @@ from phframe.pushing import (
     target_pushes,
 )
 
-EACH_LEFT = 0.25
-"""What each obstacle after the first that a push leaves in the way adds to the estimate (pushes)."""
-NEXT_BEST, TILTED, CUT, OF_TARGET = 0.05, 0.02, 0.6, 3.0
+NEXT_BEST, TILTED, CUT, OF_TARGET = 0.05, 0.02, 0.3, 3.0
 """What a sweep that is not the best of its group, is tilted, is cut short or pushes the target adds to it (pushes)."""
 AMPLE = 0.01
 """A grasp that keeps this clearance is as good as one that keeps more (m)."""
@@ -189,7 +187,7 @@ class _LazySearch:
             return None
         for drive in found:
             if drive.blocking and not drive.by_wall and not self._reach.refuses(drive):
-                self._add(depth + 1 + NEXT_BEST * EACH_LEFT * drive.blocking, _Candidate(node, drive))
+                self._add(depth + 1 + NEXT_BEST * drive.blocking, _Candidate(node, drive))
         if self._options.target_pushes:
             self._add(depth + 1 + (0.0 if all(drive.by_wall for drive in found) else OF_TARGET), _Candidate(node))
         return None
@@ -329,9 +327,9 @@ def _distinct(free: list[tuple[Drive, Grasp]]) -> list[tuple[Drive, Grasp]]:
 
 
 def _cost(decision: PushDecision, left: int) -> float:
-    """What a sweep adds to the estimate: a push where obstacles are left in the way, and more the more they are."""
+    """What a sweep adds to the estimate: a push for each obstacle that it leaves in the way."""
     tilted = decision.sweep is not None and decision.sweep.tilt != 0.0
-    return (1.0 + EACH_LEFT * (left - 1) if left else 0.0) + TILTED * tilted
+    return left + TILTED * tilted
 
 
 def _direction(push: Proposal) -> int:
