@@ -91,6 +91,8 @@ def _grasp_yaws(reach: StraightReach, scene: Scene, stride: int) -> tuple[float,
 
 
 def _moved(base_pose: BasePose, across: float, up: float) -> BasePose:
-    """A base pose elsewhere, in figures that are short to write."""
+    """A base pose elsewhere, in figures that are short to write; where it is not moved, bit by bit the same."""
+    if across == up == 0.0:
+        return base_pose
     y, z = (round(value, 6) for value in (base_pose.y + across, base_pose.z + up))
     return replace(base_pose, y=y, z=z)
