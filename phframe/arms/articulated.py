@@ -177,7 +177,7 @@ class ArticulatedArm(ArmModel[OptionsT]):
         return (self,)
 
     def mounted(self, scene: Scene, told: Told = lambda done, of: None) -> Self:
-        """The arm where the reach of the scene's target is best, if that is to be looked for; else the arm itself."""
+        """The arm where it gets at the scene's target, if that is to be looked for; else the arm itself."""
         if self.options.mount != AUTO:
             return self
         best = best_mount(mount_map(self.variants(), scene, told), scene, LEAST_SERVED)

@@ -55,7 +55,7 @@ def reach(
 
     The gripper is level, in its plane above the board, and turned by no more than 40 degrees; nothing stands in the shelf.
     An arm of joints must follow the way with no link meeting the shelf. With --option arm.mount=auto its base stands
-    where the scene's target is reached best.
+    where it gets at the scene's target, as near the default as can be.
     """
     options = only_parts(parse_options(option or ()), "arm", "scenes")
     from phframe.cli.reaching import run  # heavy, and not needed where the options are wrong

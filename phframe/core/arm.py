@@ -76,6 +76,15 @@ class ArmShape:
 
     __repr__ = short_repr
 
+    @property
+    def fingers_bottom(self) -> float:
+        """Of the fingers above the board (m): they pass over what is no taller, and cannot grasp it."""
+        return self.height + min(outline.bottom for outline in self.closed if outline.side or not self._has_fingers)
+
+    @property
+    def _has_fingers(self) -> bool:
+        return any(outline.side for outline in self.closed)
+
     def outlines(self, opening: float) -> tuple[Outline, ...]:
         """The outlines with the fingers ``opening`` (m) apart.
 

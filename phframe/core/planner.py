@@ -38,8 +38,8 @@ class Planner(ABC, Generic[OptionsT]):
     def plan(self, task: Task) -> Plan:
         """Search, and always return a plan: a spent budget or a diverged simulation is a result with a reason.
 
-        Where the object that has to be grasped is out of the arm's reach, that is the reason, and nothing is searched,
-        unless the planner may push it.
+        Where the object that has to be grasped is too low for the fingers, or out of the arm's reach and not to be pushed,
+        that is the reason, and nothing is searched.
 
         Raises:
             PluginError: If ``search`` returns something else than a plan.
@@ -55,10 +55,15 @@ class Planner(ABC, Generic[OptionsT]):
         return replace(plan, cost=task.cost)
 
     def _beyond_reach(self, task: Task) -> Plan | None:
-        """That the object which has to be grasped cannot be, if so."""
-        wanted = None if self.pushes_target else task.goal.grasped(task.scene)
-        beyond = None if wanted is None else task.out_of_reach(wanted)
-        return None if beyond is None else Plan(Status.FAILED, f"{wanted} is out of reach: {beyond.why}", None)
+        """That the object which has to be grasped cannot be, if so: too low for the fingers, or out of the arm's reach."""
+        if (wanted := task.goal.grasped(task.scene)) is None:
+            return None
+        tall, fingers = task.scene.objects[task.scene.index(wanted)].shape.height, task.arm.fingers_bottom
+        if tall <= fingers:
+            low = f"{wanted} is {tall:g} m tall, and the fingers pass over the board at {fingers:g} m: they cannot grasp it"
+            return Plan(Status.FAILED, low)
+        beyond = None if self.pushes_target else task.out_of_reach(wanted)
+        return None if beyond is None else Plan(Status.FAILED, f"{wanted} is out of reach: {beyond.why}")
 
     def check(self, scene: Scene) -> None:
         """Refuse, before anything is simulated or written, a scene that the options do not fit. By default they do.

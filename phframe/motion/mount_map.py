@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
@@ -16,8 +16,6 @@ ACROSS = (0.0, 0.1, -0.1)
 """From the default base pose along the mouth (m)."""
 UP = (0.0, 0.05, -0.05, -0.1)
 """From the default base pose upwards (m)."""
-ENOUGH = 2
-"""Free yaws to the target, from which on more of them do not count for more than a base that is nearer the default."""
 Told = Callable[[int, int], None]
 """Is told how many of how many base poses have been looked at."""
 
@@ -37,41 +35,35 @@ class Mount:
     yaws: tuple[float, ...]
 
 
-def mount_map(arms: Sequence[ArmModel[Any]], scene: Scene, told: Told = lambda done, of: None) -> tuple[Mount, ...]:
-    """The reach of a scene's target from base poses around the default ones.
+def mount_map(arms: Sequence[ArmModel[Any]], scene: Scene, told: Told = lambda done, of: None) -> Iterator[Mount]:
+    """The reach of a scene's target from base poses around the default ones, nearest these first.
 
     Args:
         arms: The same arm with each of the options that are to be chosen among, the preferred one first; all support
             straight reaches.
         scene: The scene.
         told: Is told how far it is.
-
-    Returns:
-        In the order of preference: nearest the default first.
     """
     offsets = sorted(product(ACROSS, UP), key=lambda offset: math.hypot(*offset))
     asked = [(arm, _moved(arm.default_base_pose(scene.shelf), *offset)) for offset in offsets for arm in arms]
-    found = []
     for done, (arm, base_pose) in enumerate(asked, start=1):
         yaws = _grasp_yaws(straight_reach(arm, scene.shelf, base_pose), scene, ROUGHLY)
-        found.append(Mount(arm, base_pose, yaws))
         told(done, len(asked))
-    return tuple(found)
+        yield Mount(arm, base_pose, yaws)
 
 
-def best_mount(mounts: Sequence[Mount], scene: Scene, least_served: float) -> Mount | None:
-    """The first mount with ``ENOUGH`` free yaws to the target, else the one with the most; None: none has any.
+def best_mount(mounts: Iterable[Mount], scene: Scene, least_served: float) -> Mount | None:
+    """The first mount from which the target is reached and left again, also looked at closely; None: there is none.
 
-    What the map found roughly is looked at closely, and so much of the shelf must be within reach besides.
+    The nearest to the default is best, since the default serves the whole shelf well, where things must be pushed.
 
     Args:
         mounts: In order of preference.
         scene: The scene.
-        least_served: Fraction of the shelf.
+        least_served: Fraction of the shelf that must be within reach besides.
     """
-    for mount in sorted(mounts, key=lambda mount: -min(len(mount.yaws), ENOUGH)):
-        reach = straight_reach(mount.arm, scene.shelf, mount.base_pose)
-        if not mount.yaws or not _grasp_yaws(reach, scene, 1):
+    for mount in mounts:
+        if not mount.yaws or not _grasp_yaws(straight_reach(mount.arm, scene.shelf, mount.base_pose), scene, 1):
             continue
         served = mount.arm.fraction_served(scene.shelf, mount.base_pose, least_served)
         if served is None or served >= least_served:
@@ -91,6 +83,8 @@ def _grasp_yaws(reach: StraightReach, scene: Scene, stride: int) -> tuple[float,
 
 
 def _moved(base_pose: BasePose, across: float, up: float) -> BasePose:
-    """A base pose elsewhere, in figures that are short to write."""
+    """A base pose elsewhere, in figures that are short to write; where it is not moved, bit by bit the same."""
+    if across == up == 0.0:
+        return base_pose
     y, z = (round(value, 6) for value in (base_pose.y + across, base_pose.z + up))
     return replace(base_pose, y=y, z=z)

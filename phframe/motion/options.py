@@ -42,8 +42,8 @@ class ArticulatedOptions(Options):
         cartesian_spacing: Between the poses of a path for which joints are found and checked for collisions (m).
         yaw_tolerance: Most by which the gripper is turned against a path in the shelf, where it cannot be followed
             otherwise (rad).
-        mount: Where the base stands in the shelf frame: x, y, z (m), yaw (rad); or ``auto``: where the reach of the
-            scene's target is best. None: as the scene says, else where the arm has it by default.
+        mount: Where the base stands in the shelf frame: x, y, z (m), yaw (rad); or ``auto``: as near the default as it can
+            be and get at the scene's target. None: as the scene says, else where the arm has it by default.
     """
 
     motion_planner: str = "RRTConnect"

@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import phframe
-from phframe.core import Assessment, Attempt, Goal, Options, Plan, Planner, Scene, State, Status, Task, Unreachable
+from phframe.core import (
+    Assessment,
+    Attempt,
+    Cylinder,
+    Goal,
+    Options,
+    Plan,
+    Planner,
+    Scene,
+    State,
+    Status,
+    Task,
+    Unreachable,
+)
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions
 from phframe.registry import Kind, create
 from phframe.runtime.planning_world import PlanningWorld
@@ -73,6 +87,20 @@ def test_a_planner_that_pushes_the_target_may_bring_it_within_reach() -> None:
 
 def test_a_goal_without_a_grasp_needs_no_reach() -> None:
     assert plan(Asked(Options()), Tidy(Options()), {"target"})[0].reason == "asked"
+
+
+@pytest.mark.parametrize("planner", [Asked(Options()), Pusher(Options())])
+def test_a_target_that_the_fingers_pass_over_is_refused_at_once(planner: Planner[Any]) -> None:
+    """Whoever plans, and in every engine: the fingers of the planar arm begin 0.04 m above the board."""
+    for height, asked in ((0.03, False), (0.0399, False), (0.041, True)):
+        low = replace(SCENE.objects[SCENE.target_index], shape=Cylinder(0.03, height))
+        objects = tuple(low if item.id == SCENE.target else item for item in SCENE.objects)
+        with PlanningWorld(WorldSpec(replace(SCENE, objects=objects))) as world:
+            topology, rng = create(Kind.TOPOLOGY, "ripser"), np.random.default_rng(0)
+            found = planner.plan(world.task(world.scene.initial_state(), topology, rng, goal=RETRIEVE))
+        assert (found.reason == "asked") is asked, found
+        assert asked or f"target is {height:g} m tall, and the fingers pass over the board at 0.04 m" in found.reason
+        assert found.cost.simulated_actions == 0
 
 
 @pytest.mark.slow
