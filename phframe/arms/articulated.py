@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,12 +25,17 @@ from phframe.core import (
     Outline,
     Scene,
     Shelf,
+    State,
+    Unreachable,
     rotation_matrix,
 )
+from phframe.core.arm import LEAST_SERVED
 from phframe.core.value import frozen_floats
-from phframe.motion.options import ArticulatedOptions
+from phframe.motion.mount_map import Told, best_mount, mount_map
+from phframe.motion.options import AUTO, ArticulatedOptions
 from phframe.motion.pinocchio_ import Kinematics
 from phframe.motion.reachability import reachability
+from phframe.motion.straight_reach import StraightReach
 from phframe.urdf.description import ArmDescription, Section, read_description
 from phframe.urdf.driven import driven_robot
 from phframe.urdf.model import Robot
@@ -162,18 +167,38 @@ class ArticulatedArm(ArmModel[OptionsT]):
             scene, self, base_pose, self.options, self.description, self.robot, self.kinematics
         )
 
-    def fraction_served(self, shelf: Shelf, base_pose: BasePose) -> float:
-        """As ``phframe arm reach`` says it."""
-        return reachability(shelf, self, base_pose).fraction
-
-    def descend(self, pose: FloatArray, seed: FloatArray) -> FloatArray | None:
-        """Joint values ``(dof,)`` for a pose ``(7,)``, downhill from a seed alone, or None."""
-        return self.kinematics.descend(pose, seed)
-
     @property
-    def seeds(self) -> tuple[FloatArray, ...]:
-        """Home, and the seed configurations of the description."""
-        return (self.home, *(frozen_floats(seed) for seed in self.description.seed_configurations))
+    def mount(self) -> BasePose | None:
+        """As the options have it."""
+        return self.options.base_pose
+
+    def variants(self) -> tuple[Self, ...]:
+        """The arm with each of the options that a mount is chosen for, its own first."""
+        return (self,)
+
+    def mounted(self, scene: Scene, told: Told = lambda done, of: None) -> Self:
+        """The arm where the reach of the scene's target is best, if that is to be looked for; else the arm itself."""
+        if self.options.mount != AUTO:
+            return self
+        best = best_mount(mount_map(self.variants(), scene, told), scene, LEAST_SERVED)
+        arm, base_pose = (self, self.default_base_pose(scene.shelf)) if best is None else (best.arm, best.base_pose)
+        figures = base_pose.x, base_pose.y, base_pose.z, base_pose.yaw
+        return type(self)(arm.options.model_copy(update={"mount": figures}))
+
+    def out_of_reach(self, scene: Scene, state: State, base_pose: BasePose, object_id: str) -> Unreachable | None:
+        """How far it gets towards an object at best; None: there is a yaw at which it gets there."""
+        row = scene.index(object_id)
+        reach = self.straight_reach(scene.shelf, base_pose)
+        return reach.out_of_reach(state.positions[row].tolist(), float(scene.radii[row]))
+
+    def straight_reach(self, shelf: Shelf, base_pose: BasePose) -> StraightReach:
+        """Its straight ways into a shelf, empty."""
+        parts = self.description, self.robot, self.kinematics, self.options
+        return StraightReach(shelf, self, base_pose, *parts)
+
+    def fraction_served(self, shelf: Shelf, base_pose: BasePose, enough: float = 1.0) -> float:
+        """As ``phframe arm reach`` says it."""
+        return reachability(shelf, self, base_pose, enough=enough).fraction
 
     @cached_property
     def kinematics(self) -> Kinematics:

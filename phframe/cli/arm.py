@@ -51,9 +51,11 @@ def reach(
     as_json: Json = False,
     force: Force = False,
 ) -> None:
-    """Say over how much of a shelf an arm can have its fingertip, and draw it.
+    """Say over how much of a shelf an arm gets its fingertip straight in through the mouth, and draw it.
 
-    The gripper is level, in its plane above the board, and turned by no more than 30 degrees.
+    The gripper is level, in its plane above the board, and turned by no more than 40 degrees; nothing stands in the shelf.
+    An arm of joints must follow the way with no link meeting the shelf. With --option arm.mount=auto its base stands
+    where the scene's target is reached best.
     """
     options = only_parts(parse_options(option or ()), "arm", "scenes")
     from phframe.cli.reaching import run  # heavy, and not needed where the options are wrong

@@ -15,6 +15,7 @@ from phframe.cli.output import STANDARD_OUTPUT, Output
 from phframe.core import ArmModel, BasePose, Episode, InputError, OptionError, Scene, UnknownNameError
 from phframe.core.paths import user_path
 from phframe.registry import Kind, create
+from phframe.runtime.mounting import arm_in
 
 ARM_FILE = "arm.urdf"
 
@@ -146,5 +147,4 @@ def _parts(scene: Scene, wanted: ExportRequest) -> dict[str, str]:
 
 def _arm(scene: Scene, wanted: ExportRequest) -> tuple[ArmModel[Any], BasePose]:
     assert wanted.arm is not None, "asked for"
-    arm = create(Kind.ARM, wanted.arm, wanted.options["arm"])
-    return arm, scene.base_poses.get(wanted.arm) or arm.default_base_pose(scene.shelf)
+    return arm_in(scene, wanted.arm, wanted.options["arm"])

@@ -45,6 +45,10 @@ class Progress(Observer):
             if self._wanted:
                 self._timer.start()
 
+    def mounting(self, done: int, of: int) -> None:
+        """Where the base is to stand is being looked for."""
+        self._status.update(f"Looking where the base has to stand: {done} of {of}")
+
     def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """The first plan is being made."""
         self._status.update(f"Planning with {spec.name_of('planner')} for {scene.name}")

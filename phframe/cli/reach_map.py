@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from phframe.core import Scene
-from phframe.motion.reachability import YAWS, Reachability
+from phframe.motion.reachability import Reachability
+from phframe.motion.straight_way import YAWS
 from phframe.recorders.scene_plot import draw_shelf, outline_in_shelf
 
 SIZE, DOTS = (6.4, 6.4), 120
 """Of the picture: inches, and dots per inch."""
-COLOURS = "#1f6f3f", "#6cb36c", "#c9dd7a"
+COLOURS = "#1f6f3f", "#4b944f", "#7ab567", "#abcf80", "#d8e6a4"
 """Of cells that are reached straight, and with more and more yaw."""
 BEYOND, TARGET, OBJECT = "#e5b5ae", "#d62728", "#3b4a63"
 

@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from phframe.cli.console import emit
+from phframe.cli.console import emit, error_console
 from phframe.cli.needs import require
 from phframe.cli.output import Output
-from phframe.core import BasePose, InputError
+from phframe.core import BasePose, InputError, Scene, Unreachable
 from phframe.core.paths import path_shown
+from phframe.core.variant import variant_name
 from phframe.motion.reachability import Reachability, reachability
-from phframe.registry import Kind, create
+from phframe.runtime.mounting import arm_in
 from phframe.runtime.scenes import find_scene
 
 FORMAT = 2
@@ -49,15 +50,23 @@ def run(
     """
     output = _output(out, force=force)
     scene = find_scene(scene_name, options["scenes"])
-    arm = create(Kind.ARM, arm_name, options["arm"])
-    own = scene.base_poses.get(arm_name) or arm.default_base_pose(scene.shelf)
-    base_pose = own if mount is None else BasePose(*mount)
-    reach = reachability(scene.shelf, arm, base_pose)
+    with error_console().status("Loading the libraries") as status:
+        arm, own = arm_in(
+            scene,
+            arm_name,
+            options["arm"],
+            lambda done, of: status.update(f"Looking where the base has to stand: {done} of {of}"),
+        )
+        base_pose = own if mount is None else BasePose(*mount)
+        status.update("Looking over how much of the shelf it reaches")
+        reach = reachability(scene.shelf, arm, base_pose)
+        beyond = arm.out_of_reach(scene, scene.initial_state(), base_pose, scene.target)
     if output is not None:
         from phframe.cli.reach_map import reach_picture
 
         output.write(reach_picture(reach, scene, f"{arm_name} in {scene.name}"))
-    fractions = _fractions(arm_name, scene.name, base_pose, reach)
+    name = variant_name(arm_name, arm.options.model_dump(mode="json", exclude_defaults=True, exclude={"mount"}))
+    fractions = _fractions(name, scene, base_pose, reach, beyond)
     emit(json.dumps(fractions, allow_nan=False) if as_json else _sentence(fractions))
 
 
@@ -70,23 +79,29 @@ def _output(out: str | None, *, force: bool) -> Output | None:
     return Output(out, force=force)
 
 
-def _fractions(arm: str, scene: str, base_pose: BasePose, reach: Reachability) -> dict[str, Any]:
+def _fractions(
+    arm: str, scene: Scene, base_pose: BasePose, reach: Reachability, beyond: Unreachable | None
+) -> dict[str, Any]:
     known = np.isfinite(reach.yaws)
     return {
         "format": FORMAT,
         "arm": arm,
-        "scene": scene,
+        "scene": scene.name,
         "mount": [base_pose.x, base_pose.y, base_pose.z, base_pose.yaw],
         "fraction": reach.fraction,
         "straight": float((reach.yaws == 0.0).mean()),
         "depths": [round(depth, 6) for depth in reach.depths.tolist()],
         "fraction_at_depth": known.mean(axis=0).tolist(),
+        "target_out_of_reach": None if beyond is None else beyond.why,
     }
 
 
 def _sentence(fractions: Mapping[str, Any]) -> str:
     x, y, z, yaw = fractions["mount"]
+    beyond = fractions["target_out_of_reach"]
+    target = "" if beyond is None else f"; its target is out of reach at every yaw: {beyond}"
     return (
         f"{fractions['arm']} with its base at x {x:.3f}, y {y:.3f}, z {z:.3f} m, yaw {yaw:.3f} rad reaches "
-        f"{fractions['fraction']:.1%} of the shelf of {fractions['scene']}, {fractions['straight']:.1%} without turning the gripper"
+        f"{fractions['fraction']:.1%} of the shelf of {fractions['scene']}, {fractions['straight']:.1%} without turning "
+        f"the gripper{target}"
     )

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +15,15 @@ from phframe.core.mesh import LinkMesh
 from phframe.core.options import Options
 from phframe.core.pose import compose, inverse, planar_pose, seen_from_above
 from phframe.core.shelf import BasePose, Shelf
+from phframe.core.unreachable import Unreachable
 from phframe.core.value import FloatArray, Floats, Value, short_repr
+
+if TYPE_CHECKING:
+    from phframe.core.scene import Scene
+    from phframe.core.state import State
+
+LEAST_SERVED = 0.7
+"""Fraction of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -195,10 +204,37 @@ class ArmModel(ABC, Generic[OptionsT]):
         x, y, yaw = np.asarray(gripper, dtype=np.float64).tolist()
         return compose(inverse(base_pose.pose), planar_pose(x, y, self.shape.height, yaw))
 
-    def fraction_served(self, shelf: Shelf, base_pose: BasePose) -> float | None:
-        """Of a shelf, the fraction over which the joints can take the fingertip; quickly, so to within a tenth.
+    @property
+    def mount(self) -> BasePose | None:
+        """Where the options have the base stand, whatever a scene says; None: they do not say."""
+        return None
 
-        None: not known, and found out pose by pose.
+    def mounted(self, scene: Scene, told: Callable[[int, int], None] = lambda done, of: None) -> Self:
+        """The arm as it is in a scene: with what its options leave to the scene chosen. By default the arm itself.
+
+        Args:
+            scene: The scene.
+            told: Is told how many of how many choices have been looked at.
+        """
+        return self
+
+    def out_of_reach(self, scene: Scene, state: State, base_pose: BasePose, object_id: str) -> Unreachable | None:
+        """How far the joints get towards an object, if they cannot have it grasped where it stands even in an empty shelf.
+
+        None: they can, or it is not known.
+        """
+        return None
+
+    def fraction_served(self, shelf: Shelf, base_pose: BasePose, enough: float = 1.0) -> float | None:
+        """Of a shelf, the fraction over which the joints can take the fingertip.
+
+        Args:
+            shelf: The shelf.
+            base_pose: Where the base stands.
+            enough: Once so much is known to be served, no more is looked for.
+
+        Returns:
+            None: not known, and found out pose by pose.
         """
         return None
 

@@ -57,6 +57,10 @@ class Goal(ABC, Generic[OptionsT]):
     def __init__(self, options: OptionsT) -> None:
         self.options = options
 
+    def grasped(self, scene: Scene) -> str | None:
+        """Id of the object that has to be grasped for the goal to be met; None: none, or it depends. By default None."""
+        return None
+
     @abstractmethod
     def assess(self, scene: Scene, state: State, last: Attempt | None = None) -> Assessment:
         """Judge a world.

@@ -28,6 +28,8 @@ class Planner(ABC, Generic[OptionsT]):
     """
 
     options_type: ClassVar[type[Options]] = Options
+    pushes_target: ClassVar[bool] = False
+    """Whether it may push the object that has to be grasped. If not, ``search`` is not asked where that is out of reach."""
 
     def __init__(self, options: OptionsT) -> None:
         self.options = options
@@ -36,11 +38,14 @@ class Planner(ABC, Generic[OptionsT]):
     def plan(self, task: Task) -> Plan:
         """Search, and always return a plan: a spent budget or a diverged simulation is a result with a reason.
 
+        Where the object that has to be grasped is out of the arm's reach, that is the reason, and nothing is searched,
+        unless the planner may push it.
+
         Raises:
             PluginError: If ``search`` returns something else than a plan.
         """
         try:
-            plan = self.search(task)
+            plan = self._beyond_reach(task) or self.search(task)
         except BudgetExceededError as error:
             plan = task.offered or Plan(Status.TIMEOUT, str(error), task.explored)
         except SimulationDivergedError as error:
@@ -48,6 +53,12 @@ class Planner(ABC, Generic[OptionsT]):
         if not isinstance(plan, Plan):
             raise PluginError(f"planner {type(self).__name__} returned {plan!r} instead of a Plan")
         return replace(plan, cost=task.cost)
+
+    def _beyond_reach(self, task: Task) -> Plan | None:
+        """That the object which has to be grasped cannot be, if so."""
+        wanted = None if self.pushes_target else task.goal.grasped(task.scene)
+        beyond = None if wanted is None else task.out_of_reach(wanted)
+        return None if beyond is None else Plan(Status.FAILED, f"{wanted} is out of reach: {beyond.why}", None)
 
     def check(self, scene: Scene) -> None:
         """Refuse, before anything is simulated or written, a scene that the options do not fit. By default they do.

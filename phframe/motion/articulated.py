@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -40,6 +41,8 @@ from phframe.urdf.model import Robot
 
 SAME_POSITION, SAME_YAW = 5e-3, 0.03
 """A path that begins no farther than this (m, rad) from where the gripper is goes on from there."""
+STRIDE = 6
+"""Every how many waypoints is looked at where a path is beyond the arm, to say how far it gets."""
 RESOLUTION = 0.03
 """Most that a joint moves between two configurations of a joint path that are checked for collisions (rad or m)."""
 
@@ -94,7 +97,7 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
         depth, margins = scene.shelf.depth, (options.wall_margin, options.object_margin)
         surface = SurfacePoints(kinematics, robot, description.joints, arm.tip_link, base_pose, depth)
         self._objective = NullSpaceObjective(kinematics, surface, description.behind, scene.shelf)
-        self._collisions = CollisionModel(arm, description, scene, base_pose, *margins)
+        self._collisions = CollisionModel(arm, description, scene.shelf, scene.objects, base_pose, *margins)
         self._time_parametrisation = TimeParametrisation(arm, base_pose, options)
         self._names = [joint.name for joint in arm.joints]
         self._seeds = [np.array(seed) for seed in description.seed_configurations]
@@ -149,14 +152,35 @@ class ArticulatedMotionPlanner(MotionPlanner[ArticulatedOptions]):
     ) -> JointTrajectory | Unreachable:
         """The joint path to where one that follows the gripper path begins, and that one."""
         tolerance, paths = self.options.yaw_tolerance, self._paths(problem, start=None)
-        search = ConfigurationSearch(paths, self._kinematics, self._objective, tolerance, budget)
         seeds, blocked = [*self._seeds, problem.begin, self.arm.home], None
+        if (beyond := self._beyond_reach(paths, seeds)) is not None:
+            return beyond
+        search = ConfigurationSearch(paths, self._kinematics, self._objective, tolerance, budget)
         for found in search.joint_paths(seeds, attempts, rng):
             approach = self._approach(problem, found, budget, rng)
             if not isinstance(approach, Unreachable):
                 return self._joined(problem, approach, found)
             blocked = blocked or approach
         return blocked or search.farthest
+
+    def _beyond_reach(self, paths: CartesianPathFollower, seeds: Sequence[FloatArray]) -> Unreachable | None:
+        """That inverse kinematics cannot have the deepest pose of a path, turned as far as may be, if so: the quick no."""
+        tolerance = self.options.yaw_tolerance
+        if any(self._solved(paths, paths.deepest, yaw, seeds) is not None for yaw in (0.0, tolerance, -tolerance)):
+            return None
+        row, q = paths.gate, self._solved(paths, paths.gate, 0.0, seeds)
+        while q is not None and row < paths.deepest:
+            row = min(row + STRIDE, paths.deepest)
+            q = self._kinematics.descend_to(paths.follower(row).target(paths.pose(row)), q)
+        return paths.unreachable(row, "out of reach: inverse kinematics finds no joint values")
+
+    def _solved(
+        self, paths: CartesianPathFollower, row: int, yaw: float, seeds: Sequence[FloatArray]
+    ) -> FloatArray | None:
+        """Joint values ``(dof,)`` for a pose of a path, the gripper turned by a yaw (rad), or None."""
+        target = paths.follower(row).target(paths.pose(row) + np.array([0.0, 0.0, yaw]))
+        found = (self._kinematics.descend_to(target, start) for start in self._kinematics.starts(seeds))
+        return next((q for q in found if q is not None), None)
 
     def _joined(self, problem: _Problem, approach: FloatArray, found: JointPath) -> JointTrajectory:
         """The motion along corners ``(k, dof)`` and then a joint path."""

@@ -160,9 +160,13 @@ class CartesianPathFollower:
         enough += (stride - 1) * self._spacing
         return bool(len(part.poses)) and float(part.poses[-1, 0]) <= enough
 
+    def unreachable(self, row: int, why: str, bodies: tuple[str, ...] = ()) -> Unreachable:
+        """That the path ends at one of its poses, and why."""
+        where = f"{why} at {pose_text(self._line.poses[row])}"
+        return Unreachable(float(self._line.lengths[row]), where, int(self._line.legs[row]), bodies)
+
     def _unreachable(self, part: FollowedPoses, row: int) -> Unreachable:
-        why = f"{part.why} at {pose_text(self._line.poses[row])}"
-        return Unreachable(float(self._line.lengths[row]), why, int(self._line.legs[row]), part.bodies)
+        return self.unreachable(row, part.why, part.bodies)
 
     def _joined(self, parts: list[FollowedPoses], rows: list[IntArray], dof: int) -> JointPath:
         return JointPath(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from itertools import combinations, product
 from typing import Any
 
@@ -10,7 +10,17 @@ import coal
 import numpy as np
 import pinocchio
 
-from phframe.core import ArmModel, BasePose, Cylinder, FloatArray, Scene, Shape, State, UnknownShapeError
+from phframe.core import (
+    ArmModel,
+    BasePose,
+    Cylinder,
+    FloatArray,
+    SceneObject,
+    Shape,
+    Shelf,
+    State,
+    UnknownShapeError,
+)
 from phframe.geometry.slabs import slabs
 from phframe.motion.collision_checking import CollisionContext
 from phframe.motion.pinocchio_ import se3
@@ -35,7 +45,8 @@ class CollisionModel:
     Args:
         arm: The robot; joints that neither it nor its fingers use stay at 0.
         description: Of the robot.
-        scene: The shelf and its objects.
+        shelf: The shelf.
+        objects: What stands in it.
         base_pose: Where the robot's base stands.
         wall_margin: Distance kept between the robot and the shelf (m).
         object_margin: Distance kept between the robot and objects that it must not touch (m).
@@ -48,7 +59,8 @@ class CollisionModel:
         self,
         arm: ArmModel[Any],
         description: ArmDescription,
-        scene: Scene,
+        shelf: Shelf,
+        objects: Sequence[SceneObject],
         base_pose: BasePose,
         wall_margin: float,
         object_margin: float,
@@ -63,10 +75,10 @@ class CollisionModel:
         self._least, self._base = arm.shape.min_opening, se3(base_pose.pose)
         self.bodies = [str(self.model.frames[item.parentFrame].name) for item in self.geometry.geometryObjects]
         own = range(len(self.bodies))
-        shelf = [self._add(slab.name, coal.Box(*slab.size), np.array(slab.center)) for slab in slabs(scene.shelf)]
-        self._objects = [self._add(item.id, _primitive(item.shape), np.zeros(3)) for item in scene.objects]
-        self._pair_up(own, [*shelf, *self._objects], description)
-        self._margins = dict.fromkeys(shelf, wall_margin) | dict.fromkeys(self._objects, object_margin)
+        walls = [self._add(slab.name, coal.Box(*slab.size), np.array(slab.center)) for slab in slabs(shelf)]
+        self._objects = [self._add(item.id, _primitive(item.shape), np.zeros(3)) for item in objects]
+        self._pair_up(own, [*walls, *self._objects], description)
+        self._margins = dict.fromkeys(walls, wall_margin) | dict.fromkeys(self._objects, object_margin)
         self._allowing: dict[frozenset[str], Any] = {}
 
     def checker(self, context: CollisionContext) -> CollisionChecker:

@@ -86,6 +86,16 @@ class ConfigurationSearch:
         yield from self._followed(self._turned())
         yield from self._followed(self._tried(islice(self._configurations(random), attempts)))
 
+    def first(self, seeds: Sequence[FloatArray], stride: int) -> JointPath | None:
+        """The first joint path that seeds ``(dof,)`` lead to, wide or not, looked at every so many waypoints."""
+        gate = self._paths.gate
+        for candidate in self._configurations((seed, gate) for seed in seeds):
+            found = self._paths.through(candidate.joints, candidate.row, candidate.yaw, stride)
+            if isinstance(found, JointPath):
+                return found
+            self._failed.append(replace(candidate, ending=found))
+        return None
+
     @property
     def farthest(self) -> Unreachable:
         """Where and why the joint path ends that gets farthest."""

@@ -3,14 +3,28 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
-from phframe.core import Options
+from phframe.core import BasePose, Options
 
 Acceleration = Annotated[float, Field(gt=0.0, le=100.0)]
 Margin = Annotated[float, Field(ge=0.0, le=0.05)]
+
+
+AUTO: Literal["auto"] = "auto"
+
+
+def _read(given: Any) -> Any:
+    """Figures from their text, as the command line has them: ``[-0.7,0.3,-0.15,0]``."""
+    if isinstance(given, str) and given != AUTO:
+        return [figure.strip() for figure in given.strip("[]()").split(",")]
+    return given
+
+
+Figures = tuple[float, float, float, float]
+Mounting = Annotated[Figures | Literal["auto"] | None, BeforeValidator(_read)]
 
 
 class ArticulatedOptions(Options):
@@ -28,6 +42,8 @@ class ArticulatedOptions(Options):
         cartesian_spacing: Between the poses of a path for which joints are found and checked for collisions (m).
         yaw_tolerance: Most by which the gripper is turned against a path in the shelf, where it cannot be followed
             otherwise (rad).
+        mount: Where the base stands in the shelf frame: x, y, z (m), yaw (rad); or ``auto``: where the reach of the
+            scene's target is best. None: as the scene says, else where the arm has it by default.
     """
 
     motion_planner: str = "RRTConnect"
@@ -40,3 +56,9 @@ class ArticulatedOptions(Options):
     object_margin: Margin = 0.001
     cartesian_spacing: Annotated[float, Field(ge=0.001, le=0.02)] = 0.005
     yaw_tolerance: Annotated[float, Field(ge=0.0, le=0.8)] = math.radians(15.0)
+    mount: Mounting = None
+
+    @property
+    def base_pose(self) -> BasePose | None:
+        """The mount, where it is given by its figures."""
+        return BasePose(*self.mount) if isinstance(self.mount, tuple) else None

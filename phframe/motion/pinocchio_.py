@@ -66,7 +66,7 @@ class Kinematics:
         """
         if float(np.linalg.norm(pose[:3] - self._root)) > self._longest:
             return None
-        for start in self._starts(self._home if seed is None else seed):
+        for start in self.starts([self._home if seed is None else seed]):
             found = self.descend(pose, start)
             if found is not None:
                 return found
@@ -95,6 +95,12 @@ class Kinematics:
                 return None
             q = self._stepped(q, error, jacobian)
         return None
+
+    def starts(self, seeds: Sequence[FloatArray]) -> Iterator[FloatArray]:
+        """Starting points ``(dof,)`` of the inverse kinematics: seeds, then others all over, nearest the last seed first."""
+        yield from seeds
+        distances = np.linalg.norm(self._spread - seeds[-1], axis=1)
+        yield from self._spread[np.argsort(distances, kind="stable")]
 
     def joint_frames(self, q: FloatArray, direction: FloatArray) -> list[Any]:
         """Where the frames of the chain's joints are, and how they move as the joints move in a direction ``(dof,)``.
@@ -143,11 +149,6 @@ class Kinematics:
         values = np.empty(len(q))
         values[self._rows] = q
         return values
-
-    def _starts(self, seed: FloatArray) -> Iterator[FloatArray]:
-        yield seed
-        distances = np.linalg.norm(self._spread - seed, axis=1)
-        yield from self._spread[np.argsort(distances, kind="stable")]
 
     @cached_property
     def _spread(self) -> FloatArray:

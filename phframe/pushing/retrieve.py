@@ -50,6 +50,10 @@ class Retrieve(Goal[RetrieveOptions]):
         wanted = self.options.target
         return scene if wanted in (None, scene.target) else replace(scene, target=wanted)
 
+    def grasped(self, scene: Scene) -> str:
+        """The object that is to be retrieved."""
+        return self.scene(scene).target
+
     def assess(self, scene: Scene, state: State, last: Attempt | None = None) -> Assessment:
         """How far it got.
 

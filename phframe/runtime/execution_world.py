@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from phframe.core import Action, Motion, State, Trajectory, Unreachable, Watch
@@ -29,6 +31,21 @@ class ExecutionWorld(World):
         """Why the arm cannot carry out an action from a state; None: it can."""
         planned = self.plan_trajectory(state, action)
         return planned if isinstance(planned, Unreachable) else None
+
+    def out_of_reach(self, state: State, object_id: str) -> Unreachable | None:
+        """Why joints that are driven can have an object grasped where it stands at no yaw, even in an empty shelf."""
+        if not self.by_joints:
+            return None
+        found = self.arm.out_of_reach(self.scene, state, self.base_pose, object_id)
+        if found is None:
+            return None
+        remedy = (
+            ""
+            if self.arm.mount is not None
+            else "; with --option arm.mount=auto the base stands where it can, if anywhere"
+        )
+        why = f"arm {self.spec.arm!r} gets there at no yaw, even in an empty shelf ({found.why}){remedy}"
+        return replace(found, why=why)
 
     def _refuse_pose(self, action: Action) -> Unreachable | None:
         """Where the arm's joints cannot take the fingertip, if anywhere."""

@@ -35,6 +35,9 @@ class MountedArm:
 class Observer:
     """Told of what happens, in this order; each method does nothing unless it is overridden."""
 
+    def mounting(self, done: int, of: int) -> None:
+        """So many of so many base poses have been looked at, before an episode whose arm is to be mounted for the scene."""
+
     def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """An episode begins."""
 

@@ -13,8 +13,6 @@ import numpy as np
 from phframe.core import (
     MOUTH_CLEARANCE,
     Action,
-    ArmModel,
-    BasePose,
     Contacts,
     GripperPath,
     IncompatibleError,
@@ -36,15 +34,15 @@ from phframe.core import (
     starting_from,
     time_path,
 )
+from phframe.core.arm import LEAST_SERVED
 from phframe.core.gripper_path import LEAST_AHEAD
-from phframe.registry import Kind, create, identify, load
+from phframe.registry import Kind, load
+from phframe.runtime.mounting import arm_in
 
 APPROACH_SPEED = 0.5
 """Of the fingertip outside the shelf, in free space (m/s)."""
 RETREAT_SPEED = 0.25
 """Of the fingertip that draws back after a stall (m/s)."""
-LEAST_SERVED = 0.7
-"""Fraction of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
 MOTION_ATTEMPTS, MOTION_SECONDS = 10, 300.0
 """How often a motion planner may try anew, and for how long (s)."""
 
@@ -88,8 +86,7 @@ class World:
 
     def __init__(self, spec: WorldSpec) -> None:
         self.spec, self.scene = spec, spec.scene
-        self.arm: ArmModel[Any] = create(Kind.ARM, spec.arm, spec.arm_options)
-        self.base_pose = _named_base_pose(spec) or self.arm.default_base_pose(spec.scene.shelf)
+        self.arm, self.base_pose = arm_in(spec.scene, spec.arm, spec.arm_options)
         backend: type[Physics[Any]] = load(Kind.BACKEND, spec.backend)
         options = backend.options_type.parse(spec.backend_options, f"backend {spec.backend}")
         self._motion_planner = None
@@ -115,7 +112,7 @@ class World:
 
     def _refuse_base_pose(self) -> None:
         """Refuse a base pose from which the arm's joints reach too little of the shelf."""
-        fraction = self.arm.fraction_served(self.scene.shelf, self.base_pose)
+        fraction = self.arm.fraction_served(self.scene.shelf, self.base_pose, LEAST_SERVED)
         if fraction is not None and fraction < LEAST_SERVED:
             raise IncompatibleError(
                 f"arm {self.spec.arm!r} at its base pose {self.base_pose} reaches {fraction:.0%} of the shelf, and "
@@ -209,9 +206,3 @@ class World:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
-
-
-def _named_base_pose(spec: WorldSpec) -> BasePose | None:
-    """Where the scene has the arm stand, if it names it; a class or an object bears the name it is registered by."""
-    name, _ = identify(Kind.ARM, spec.arm)
-    return spec.scene.base_poses.get(name) if isinstance(name, str) else None

@@ -246,7 +246,7 @@ def test_closed_fingers_may_touch_one_another() -> None:
     example = DescribedArm(DescribedArmOptions())
     description = example.description.model_copy(update={"overlapping": ()})
     scene = Scene("shelf", SHELF, (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
-    model = CollisionModel(example, description, scene, example.default_base_pose(SHELF), 0.0, 0.0)
+    model = CollisionModel(example, description, scene.shelf, scene.objects, example.default_base_pose(SHELF), 0.0, 0.0)
     checker = model.checker(CollisionContext(scene.initial_state(), opening=0.0))
     assert checker.collisions(example.home) == ()
     folded = np.array([0.0, 0.5, 2.6, 0.0, 0.0, 0.0])

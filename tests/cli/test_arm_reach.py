@@ -83,3 +83,37 @@ def test_a_group_alone_shows_its_help_and_is_no_success(invoke: Invoke) -> None:
     result = invoke("arm")
     assert result.exit_code == 2
     assert "reach" in result.stdout
+
+
+@pytest.mark.needs_baxter
+def test_a_mount_among_the_options_is_where_the_base_stands(invoke: Invoke) -> None:
+    pytest.importorskip("pinocchio")
+    options = ["--option", "arm.side=right", "--option", "arm.mount=[-0.675,0.642,-0.25,0]"]
+    said = json.loads(invoke("arm", "reach", "--arm", "baxter", "--scene", "papallas/s01", *options, "--json").stdout)
+    assert said["mount"] == [-0.675, 0.642, -0.25, 0.0]
+    assert said["target_out_of_reach"] is None
+    assert said["fraction"] > 0.95
+
+
+@pytest.mark.slow
+@pytest.mark.needs_baxter
+def test_where_the_base_would_have_to_stand_is_told(invoke: Invoke) -> None:
+    pytest.importorskip("pinocchio")
+    own = ["--option", "arm.side=left", "--mount", "-0.675", "-0.058", "-0.15", "0"]
+    said = invoke("arm", "reach", "--arm", "baxter", "--scene", "papallas/s08", *own).stdout
+    assert "its target is out of reach at every yaw" in said
+    auto = ["--option", "arm.mount=auto", "--json"]
+    found = json.loads(invoke("arm", "reach", "--arm", "baxter", "--scene", "papallas/s08", *auto).stdout)
+    assert found["target_out_of_reach"] is None
+    assert found["mount"] != [-0.675, -0.058, -0.15, 0.0]
+
+
+@pytest.mark.needs_baxter
+def test_an_exported_arm_stands_where_its_options_have_it(invoke: Invoke, workplace: Path) -> None:
+    pytest.importorskip("pinocchio")
+    options = ["--option", "arm.side=right", "--option", "arm.mount=[-0.675,0.642,-0.25,0]"]
+    done = invoke("export", "papallas/s01", "--format", "urdf-parts", "--arm", "baxter", *options, "--out", "parts")
+    assert done.exit_code == 0, done.output
+    listed = json.loads(next(workplace.glob("parts/*.json")).read_text())
+    assert listed["arm"]["position"] == [-0.675, 0.642, -0.25]
+    assert 'name="baxter_right"' in (workplace / "parts" / listed["arm"]["urdf"]).read_text()

@@ -28,7 +28,9 @@ MARGINS = 0.0015, 0.001
 
 
 def model_of(arm: Any, scene: Scene = SCENE, margins: tuple[float, float] = MARGINS) -> CollisionModel:
-    return CollisionModel(arm, arm.description, scene, arm.default_base_pose(scene.shelf), *margins)
+    return CollisionModel(
+        arm, arm.description, scene.shelf, scene.objects, arm.default_base_pose(scene.shelf), *margins
+    )
 
 
 def checker_of(arm: Any, state: State = START, opening: float | None = None, **more: Any) -> CollisionChecker:

@@ -13,7 +13,7 @@ pytest.importorskip("pinocchio")
 pytest.importorskip("ompl")
 pytest.importorskip("toppra")
 
-from phframe.core import FloatArray, GripperPath, JointTrajectory, MotionPlanner, State, Unreachable
+from phframe.core import BasePose, FloatArray, GripperPath, JointTrajectory, MotionPlanner, State, Unreachable
 from phframe.motion.budget import SearchBudget
 from phframe.motion.edges import Edges
 from tests.motion.motions import (
@@ -57,6 +57,10 @@ def test_where_the_time_is_up_it_says_so() -> None:
     assert found.why == "no motion was found in the 0 s allowed"
 
 
+ASIDE = BasePose(-0.675, MIDDLE - 0.35, -0.15, 0.0)
+"""Where a way around has to be searched for."""
+
+
 def turned(ours: MotionPlanner[Any]) -> tuple[GripperPath, State]:
     """No motion at the path's own yaw."""
     return insertion(ours.arm, 0.4, SHELF.width - 0.0625), CROWD.initial_state()
@@ -78,7 +82,7 @@ def test_the_clock_changes_no_result_but_to_say_that_the_time_was_up(
     problem: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """By a clock that says that the time is up from one look at it on, whichever it is."""
-    ours, looks = planner(baxter(), CROWD), [0]
+    ours, looks = planner(baxter(), CROWD, ASIDE), [0]
     path, state = problem(ours)
     usual = result(lifted_by(ours, path, state, monkeypatch, looks, NEVER))
     asked, ends = looks[0], []
@@ -114,7 +118,7 @@ def result(found: JointTrajectory | Unreachable) -> object:
 
 def test_the_search_was_needed(monkeypatch: pytest.MonkeyPatch) -> None:
     """Else the test above would not have tried the clock within OMPL."""
-    ours, asked = planner(baxter(), CROWD), []
+    ours, asked = planner(baxter(), CROWD, ASIDE), []
     path, state = searched(ours)
     allowed = Edges.allowed
 

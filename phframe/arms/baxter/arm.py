@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Self
+
 from phframe.arms.articulated import ArticulatedArm
 from phframe.arms.baxter import figures
 from phframe.arms.baxter.model import SIDES, Side, arm_joints, baxter_robot, fingers, mirrored
@@ -15,10 +17,11 @@ class BaxterOptions(ArticulatedOptions):
     """Which arm works, and how it moves.
 
     Attributes:
-        side: Left or right; the other one is parked outwards. The shelf stands before the one that works.
+        side: Left or right; the other one is parked outwards. The shelf stands before the one that works. Where the mount
+            is ``auto``, the side is chosen with it.
     """
 
-    side: Side = "left"
+    side: Side = "right"
 
 
 class Baxter(ArticulatedArm[BaxterOptions]):
@@ -30,6 +33,11 @@ class Baxter(ArticulatedArm[BaxterOptions]):
         """From the table of figures."""
         side = self.options.side
         return _description(side), baxter_robot(side)
+
+    def variants(self) -> tuple[Self, ...]:
+        """Either arm, the chosen one first."""
+        sides = sorted(SIDES, key=lambda side: side != self.options.side)
+        return tuple(type(self)(self.options.model_copy(update={"side": side})) for side in sides)
 
     def meshes(self) -> tuple[LinkMesh, ...]:
         """Rethink's, where the extra ``meshes`` is installed."""
