@@ -8,15 +8,12 @@ from __future__ import annotations
 
 import math
 
-from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace, lay_floor
+from phframe.backends.pymunk_.world import Circle, ShelfItem, ShelfSpace, lay_floor
 
 AHEAD = 8
 """What can be reached within so many steps gets its friction now."""
 HASTE, SLACK = 2.0, 0.05
 """What is pushed goes at most so many times as fast as the arm, and so much faster (m/s)."""
-
-Circle = tuple[float, float, float]
-"""Centre and bounding radius of an object (m)."""
 
 
 class Lookout:
@@ -42,17 +39,16 @@ class Lookout:
         """Lay the floor under what may be touched within some steps."""
         fastest, movers, waiting = self._speed, [], []
         for item in self._world.items.values():
-            x, y = item.body.position
             if item.floor:
-                movers.append((x, y, item.radius))
+                movers.append((*item.body.position, item.radius))
                 fastest = max(fastest, math.hypot(*item.body.velocity))
             else:
-                waiting.append((item, (x, y, item.radius)))
+                waiting.append(item)
         reach = (HASTE * fastest + SLACK) * self._step
         self.due = self._world.tick + lay_floors(self._world, waiting, movers, AHEAD * reach) / reach
 
 
-def lay_floors(world: ShelfSpace, waiting: list[tuple[ShelfItem, Circle]], movers: list[Circle], near: float) -> float:
+def lay_floors(world: ShelfSpace, waiting: list[ShelfItem], movers: list[Circle], near: float) -> float:
     """Lay the floor under what is near the arm, or near something that may be pushed, and so on.
 
     Args:
@@ -64,27 +60,27 @@ def lay_floors(world: ShelfSpace, waiting: list[tuple[ShelfItem, Circle]], mover
     Returns:
         Distance (m) from the arm and all that may be pushed to the nearest object that still has no floor.
     """
-    gaps = _gaps_to_arm(world, [circle for _, circle in waiting])
+    gaps = _gaps_to_arm(world, waiting)
     while waiting:
-        gaps = [_nearest(gap, circle, movers) for gap, (_, circle) in zip(gaps, waiting, strict=True)]
+        gaps = [_nearest(gap, item.found, movers) for gap, item in zip(gaps, waiting, strict=True)]
         if min(gaps) >= near:
             return min(gaps)
-        reached = [one for gap, one in zip(gaps, waiting, strict=True) if gap < near]
-        waiting = [one for gap, one in zip(gaps, waiting, strict=True) if gap >= near]
+        for gap, item in zip(gaps, waiting, strict=True):
+            if gap < near:
+                lay_floor(world, item)
+        movers = [item.found for item in waiting if item.floor]
         gaps = [gap for gap in gaps if gap >= near]
-        movers = [circle for _, circle in reached]
-        for item, _ in reached:
-            lay_floor(world, item)
+        waiting = [item for item in waiting if not item.floor]
     return math.inf
 
 
-def _gaps_to_arm(world: ShelfSpace, circles: list[Circle]) -> list[float]:
-    """Distance of each circle from the box around the arm (m), below 0 where they overlap."""
+def _gaps_to_arm(world: ShelfSpace, items: list[ShelfItem]) -> list[float]:
+    """Distance of each object that has no floor from the box around the arm (m), below 0 where they overlap."""
     (x0, y0), angle = world.arm.body.position, world.arm.body.angle
     c, s = math.cos(angle), math.sin(angle)
     left, bottom, right, top = world.measures.hull
     gaps = []
-    for x, y, radius in circles:
+    for x, y, radius in (item.found for item in items):
         along, across = c * (x - x0) + s * (y - y0), c * (y - y0) - s * (x - x0)
         gaps.append(math.hypot(max(left - along, along - right, 0.0), max(bottom - across, across - top, 0.0)) - radius)
     return gaps

@@ -50,9 +50,14 @@ def gripped(world: ShelfSpace, items: Sequence[ShelfItem]) -> ShelfItem | None:
     """Which of some objects both fingers touch, if any does."""
     for item in items:
         gaps = zip(_gaps(world, item), world.arm.fingers, strict=True)
-        if world.arm.fingers and all(gap <= _reach(world, item, finger) + TOUCH for gap, finger in gaps):
+        if world.arm.fingers and all(_touches(world, item, finger, gap) for gap, finger in gaps):
             return item
     return None
+
+
+def _touches(world: ShelfSpace, item: ShelfItem, finger: MovingFinger, gap: float) -> bool:
+    """Whether an object reaches over a gap (m) from its centre to a finger."""
+    return gap <= item.radius + TOUCH and gap <= _reach(world, item, finger) + TOUCH
 
 
 def _reach(world: ShelfSpace, item: ShelfItem, finger: MovingFinger) -> float:

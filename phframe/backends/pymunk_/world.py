@@ -61,6 +61,10 @@ class PymunkSurfaces:
         return coefficient / self.object_factor if self.object_factor > 0.0 else 0.0
 
 
+Circle = tuple[float, float, float]
+"""Centre and bounding radius of an object (m)."""
+
+
 @dataclass(slots=True)
 class ShelfItem:
     """An object on the board or in the hand.
@@ -69,6 +73,7 @@ class ShelfItem:
         thing: As the scene has it.
         name: Its id.
         radius: Its bounding radius seen from above (m).
+        found: Centre and bounding radius where the state had it (m): it is there still as long as it has no floor.
         body: Where it is.
         foot: Its outline, and what it stands with.
         friction: Most that the board resists its sliding with, ``mu m g`` (N).
@@ -79,6 +84,7 @@ class ShelfItem:
     thing: SceneObject
     name: str
     radius: float
+    found: Circle
     body: ChipmunkBody
     foot: Footprint
     friction: float
@@ -208,12 +214,12 @@ def build_world(model: PymunkModel, state: State) -> ShelfSpace:
     space = ChipmunkSpace(model.iterations, SLOP)
     walls = _add_walls(space, scene, surfaces)
     found = zip(scene.objects, state.poses.tolist(), state.conditions, strict=True)
-    items, spilled, toppled = {}, {}, set()
+    items, spilled, toppled, factor = {}, {}, set(), surfaces.object_factor
     for item, pose, condition in found:
         if condition is Condition.SPILLED:
             spilled[item.id] = pose
         else:
-            items[item.id] = _add_item(space, scene, item, pose, surfaces)
+            items[item.id] = _add_item(space, scene, item, pose, factor)
         if condition is Condition.TOPPLED:
             toppled.add(item.id)
     arm = _add_arm(space, model)
@@ -251,14 +257,13 @@ def _add_walls(space: ChipmunkSpace, scene: Scene, surfaces: PymunkSurfaces) -> 
     return walls
 
 
-def _add_item(
-    space: ChipmunkSpace, scene: Scene, item: SceneObject, pose: list[float], surfaces: PymunkSurfaces
-) -> ShelfItem:
+def _add_item(space: ChipmunkSpace, scene: Scene, item: SceneObject, pose: list[float], factor: float) -> ShelfItem:
+    (x, y, *_), radius = pose, item.radius
     friction = coulomb_with_board(scene, item) * item.mass * GRAVITY
     foot = footprint(space, item.shape, item.mass, friction)
-    foot.body.position, foot.body.angle = (pose[0], pose[1]), yaw_of(pose)
-    space.add_shape(foot.primitive, surfaces.object_factor, OBJECT)
-    return ShelfItem(item, item.id, item.radius, foot.body, foot, friction)
+    foot.body.position, foot.body.angle = (x, y), yaw_of(pose)
+    space.add_shape(foot.primitive, factor, OBJECT)
+    return ShelfItem(item, item.id, radius, (x, y, radius), foot.body, foot, friction)
 
 
 def lay_floor(world: ShelfSpace, item: ShelfItem) -> None:
