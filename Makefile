@@ -2,11 +2,11 @@
 # Written for GNU make 3.81 and newer and a POSIX shell.
 
 # The extras (see pyproject.toml) that each job is set up with; `make test TEST_EXTRAS=dev` tests without any.
-TEST_EXTRAS ?= dev,rerun,parquet,cluster
+TEST_EXTRAS ?= dev,fast,rerun,parquet,cluster
 TEST_3D_EXTRAS ?= dev,mujoco,pybullet,ompl,baxter,meshes,video
 DEMO_EXTRAS ?= rerun
 PICTURES_EXTRAS ?= rerun,mujoco,ompl,baxter,meshes,video,plots,report
-BENCH_EXTRAS ?= dev,rerun,mujoco,pybullet,ompl,baxter
+BENCH_EXTRAS ?= dev,fast,rerun,mujoco,pybullet,ompl,baxter
 SCENE ?= vieira/basic
 # What is tested with phframe: plugins as their users have them, installed.
 PLUGINS := plugins/phframe-lookahead

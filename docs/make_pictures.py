@@ -22,6 +22,7 @@ PICTURES = {
         "python -m docs.screenshot {scratch}/run/recording.rrd {picture} --at 0.17",
     ),
     "basic-decisions.png": ("python docs/examples/draw_decisions.py {picture}",),
+    "sure-search.png": ("python docs/examples/draw_search.py {picture}",),
     "dense-scene.png": ("phframe scenes dense/9 --out {picture} --force",),
     "basic-in-mujoco.webp": (f"{SOLVE} --backend mujoco --no-rerun --out {{scratch}}/run --video {{picture}}",),
     "baxter.webp": (

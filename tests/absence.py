@@ -20,6 +20,8 @@ DISTRIBUTIONS = {
     "trimesh": "trimesh",
 }
 """Of the libraries for 3D, by the module that they are imported as."""
+OPTIONAL = {**DISTRIBUTIONS, "numba": "numba"}
+"""The same of all libraries that can be hidden."""
 
 
 class Without:
@@ -32,7 +34,7 @@ class Without:
 
     def __init__(self, finder: Any, modules: Sequence[str]) -> None:
         self._finder, self._modules = finder, frozenset(modules)
-        self._distributions = frozenset(DISTRIBUTIONS[module] for module in modules)
+        self._distributions = frozenset(OPTIONAL[module] for module in modules)
 
     def find_spec(self, name: str, path: Sequence[str] | None = None, target: Any = None) -> ModuleSpec | None:
         """None for what is hidden."""

@@ -99,6 +99,13 @@ def test_what_needs_one_says_what_to_install(line: str, library: str, extra: str
     assert [path.name for path in tmp_path.iterdir()] == ["there.xml"]
 
 
+def test_without_the_compiled_engine_all_is_planned_in_pymunk(tmp_path: Path) -> None:
+    hidden = [*DISTRIBUTIONS, "numba"]
+    solved = phframe("solve vieira/simple-07 --no-rerun", tmp_path, hidden)
+    assert solved.returncode == 0, solved.stderr
+    check_lacks(phframe("solve --backend fast", tmp_path, hidden), "numba", "fast")
+
+
 @pytest.mark.needs_baxter
 @pytest.mark.needs_mujoco
 @pytest.mark.parametrize(("hidden", "extra"), [("ompl", "ompl"), ("toppra", "baxter")])

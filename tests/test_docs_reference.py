@@ -54,7 +54,7 @@ from tests.markdown import (
 PLANNERS = [each.name for each in builtin.EXTENSIONS if each.kind is Kind.PLANNER]
 GRTC = ("grtc-straight", "guided")
 """Planners that have options of their own, in one table."""
-FURTHER = ("phia", "ooa", "phis", "phim")
+FURTHER = ("phia", "sure", "ooa", "phis", "phim")
 """Planners with the family's options and further ones, in a table of their own."""
 KINODYNAMIC = ("grtc-kinodynamic", "kinodynamic-rrt")
 """Planners whose options are told where they are described."""
@@ -172,7 +172,7 @@ def test_what_runs_where_is_what_the_markers_say() -> None:
         names = re.findall(r"\w+", needed)
         own = [each.extra for each in builtin.EXTENSIONS if each.name in (backend, arm) and each.extra]
         assert set(own) <= set(names), (backend, arm)
-        by_joints = backend != "pymunk"
+        by_joints = backend not in ("pymunk", "fast")
         found = [available(names, platform, by_joints=by_joints) for platform in PLATFORMS.values()]
         assert cells == found, (backend, arm)
 
@@ -193,7 +193,8 @@ def option_rows(planner: str) -> list[list[str]]:
         return table("docs/planners.md", f"`{planner}`")
     if planner not in GRTC:
         own = table("docs/planners.md", f"`{planner}`") if planner in FURTHER else []
-        return table("docs/planners.md", "Options") + own
+        family = table("docs/planners.md", "Options")
+        return list({row[0]: row for row in family + own}.values())  # what is its own default is told with its own
     rows = table("docs/planners.md", "Options of `grtc-straight` and `guided`")
     return [row for row in rows if not re.match(r"`?(grtc-straight|guided)`?:", row[3]) or planner in row[3]]
 

@@ -15,7 +15,20 @@ from packaging.utils import canonicalize_name
 from ruamel.yaml import YAML
 
 ROOT = Path(__file__).resolve().parent.parent
-ENGINES = {"rerun", "mujoco", "pybullet", "ompl", "baxter", "meshes", "video", "plots", "parquet", "cluster", "report"}
+ENGINES = {
+    "fast",
+    "rerun",
+    "mujoco",
+    "pybullet",
+    "ompl",
+    "baxter",
+    "meshes",
+    "video",
+    "plots",
+    "parquet",
+    "cluster",
+    "report",
+}
 
 
 @functools.cache
@@ -163,6 +176,8 @@ def test_constraints_are_plain_names_and_versions_in_order() -> None:
         ("baxter", "toppra", {"sys_platform": "darwin", "platform_machine": "arm64"}, False),
         ("mujoco", "mujoco", {"sys_platform": "darwin", "platform_machine": "arm64"}, True),
         ("mujoco", "mujoco", {"sys_platform": "darwin", "platform_machine": "x86_64"}, False),
+        ("fast", "numba", {"sys_platform": "darwin", "platform_machine": "arm64"}, True),
+        ("fast", "numba", {"sys_platform": "darwin", "platform_machine": "x86_64"}, False),
         ("rerun", "rerun-sdk", {"sys_platform": "win32", "platform_machine": "AMD64"}, True),
         ("rerun", "rerun-sdk", {"sys_platform": "darwin", "platform_machine": "x86_64"}, False),
     ],

@@ -44,8 +44,8 @@ def first_contacts(
         delay: How long after it began a contact is noted (s).
     """
     seen = set()
-    for time, part, body, wall in touches:
+    for time, part, body, _ in (touch for touch in touches if touch[3] is walls):
         phase = trajectory.phase_at(time - delay)
-        if wall is walls and (part, body, phase) not in seen:
+        if (part, body, phase) not in seen:
             seen.add((part, body, phase))
             yield Contact(time, body, phase, part)

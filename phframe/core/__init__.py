@@ -29,8 +29,9 @@ from phframe.core.mesh import LinkMesh
 from phframe.core.motion import FORCE_WINDOW, Contact, Motion, StopCause, StopReason, Transition
 from phframe.core.motion_planner import MotionPlanner, SupportsMotionPlanning, motion_planner_of
 from phframe.core.options import Options
-from phframe.core.physics import Physics, Settle, Stop, SupportsPropagation, Watch
-from phframe.core.plan import Cost, Plan
+from phframe.core.particle import Particle
+from phframe.core.physics import Physics, Settle, Stop, SupportsManySimulations, SupportsPropagation, Watch
+from phframe.core.plan import Certainty, Cost, Plan
 from phframe.core.planner import Planner
 from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, seen_from_above, tilt_of, yaw_of
 from phframe.core.rejection import Rejection
@@ -67,6 +68,7 @@ __all__ = [
     "BasePose",
     "Budget",
     "BudgetExceededError",
+    "Certainty",
     "Condition",
     "Contact",
     "Contacts",
@@ -98,6 +100,7 @@ __all__ = [
     "OptionError",
     "Options",
     "Outline",
+    "Particle",
     "PersistenceDiagram",
     "Phase",
     "PhaseRule",
@@ -127,6 +130,7 @@ __all__ = [
     "StopCause",
     "StopReason",
     "StoredName",
+    "SupportsManySimulations",
     "SupportsMotionPlanning",
     "SupportsPropagation",
     "Task",

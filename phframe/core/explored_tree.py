@@ -70,6 +70,19 @@ class ExploredTree(Value):
         """The nodes of the chosen path, the root left out."""
         return tuple(self.nodes[row] for row in path_to(self.nodes, self.chosen)[1:])
 
+    def after(self, actions: int) -> ExploredTree:
+        """The part of the tree that begins after so many actions of the chosen path; the rest of the path is its chosen one."""
+        node = path_to(self.nodes, self.chosen)[actions]
+        order = {node: ROOT}
+        for row, each in enumerate(self.nodes):
+            if each.parent in order:
+                order[row] = len(order)
+        nodes = tuple(
+            replace(self.nodes[row], parent=None if row == node else order[self.nodes[row].parent or ROOT])
+            for row in order
+        )
+        return ExploredTree(nodes, order[self.chosen])
+
     def summarised(self, most: int = MOST_NODES) -> ExploredTree:
         """The tree with no more than so many nodes: the chosen path, then the others in the order they were tried."""
         if len(self.nodes) <= most:

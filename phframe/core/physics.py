@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, Protocol, TypeVar, runtime_checkable
 
@@ -141,6 +141,32 @@ class Physics(ABC, Generic[OptionsT]):
         self.restore(state)
         motion = self.execute(trajectory, settle=settle, stop=stop, watch=watch)
         return Transition(self.observe(), motion)
+
+
+@runtime_checkable
+class SupportsManySimulations(Protocol):
+    """What a backend may offer besides, that simulates many motions in one call and in less time."""
+
+    def simulate_many(
+        self,
+        states: Sequence[State],
+        trajectories: Sequence[Trajectory],
+        *,
+        settle: Settle | None = Settle(),
+        stop: Stop | None = None,
+    ) -> list[Transition]:
+        """``simulate`` of each state and its trajectory, in their order: the same bits as one by one.
+
+        Args:
+            states: One for each trajectory.
+            trajectories: Of the kind named by ``executes``; each begins where the arm of its state is.
+            settle: As in ``simulate``.
+            stop: Likewise.
+
+        Raises:
+            InputError: As ``restore`` and ``execute``, before any is simulated.
+            SimulationDivergedError: If one diverged.
+        """
 
 
 SnapshotT = TypeVar("SnapshotT")

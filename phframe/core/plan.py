@@ -44,6 +44,26 @@ class Cost:
         )
 
 
+@dataclass(frozen=True, slots=True)
+class Certainty:
+    """How sure a plan is.
+
+    Attributes:
+        clearance: Least distance that the arm, reaching for the target, keeps from obstacles and walls (m); None: not known.
+        samples: In how many samples of the world the plan was simulated; 0: what is believed of it is certain.
+        clean: In how many of those it retrieved the target cleanly.
+    """
+
+    clearance: float | None = None
+    samples: int = 0
+    clean: int = 0
+
+    @property
+    def share(self) -> float | None:
+        """Share of the samples in which it was clean; None: there were none."""
+        return self.clean / self.samples if self.samples else None
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan(Value):
     """What a planner returns, success or not: a path through what it has tried.
@@ -53,12 +73,14 @@ class Plan(Value):
         reason: Why no farther, for people; empty where the goal is met.
         tree: What was tried; the chosen path holds the actions. None: nothing was.
         cost: What planning cost; left out when plans are compared.
+        certainty: How sure the planner is of it; None: it does not say.
     """
 
     status: Status
     reason: str = ""
     tree: ExploredTree | None = None
     cost: Cost = field(default=Cost(), compare=False)
+    certainty: Certainty | None = None
 
     @classmethod
     def of(

@@ -17,7 +17,7 @@ def planar_pose(x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> FloatAr
 
 def yaw_of(pose: ArrayLike) -> float:
     """Heading (rad, in (-pi, pi]) of the x axis of a pose ``(7,)`` seen from above."""
-    w, x, y, z = np.asarray(pose, dtype=np.float64)[3:]
+    w, x, y, z = np.asarray(pose, dtype=np.float64)[3:].tolist()
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 

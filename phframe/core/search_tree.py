@@ -79,9 +79,13 @@ class SearchTree:
             depths[row] = depths[node.parent or ROOT] + 1
         return max(range(len(depths)), key=lambda row: (depths[row], row))
 
+    def rows(self, node: int) -> tuple[int, ...]:
+        """The indices of the nodes that lead to a node, the root left out."""
+        return tuple(path_to(self._nodes, node)[1:])
+
     def path(self, node: int) -> tuple[SearchNode, ...]:
         """The nodes that lead to a node, the root left out."""
-        return tuple(self._nodes[row] for row in path_to(self._nodes, node)[1:])
+        return tuple(self._nodes[row] for row in self.rows(node))
 
     def plan(self, node: int, status: Status, reason: str = "") -> Plan:
         """The plan that consists of the actions which lead to a node, with all that was tried.

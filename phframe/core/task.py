@@ -17,6 +17,7 @@ from phframe.core.errors import BudgetExceededError, InputError
 from phframe.core.explored_tree import ExploredTree
 from phframe.core.goal import Goal
 from phframe.core.motion import Transition
+from phframe.core.particle import Apply, Particle
 from phframe.core.physics import Stop, SupportsPropagation
 from phframe.core.plan import Cost, Plan
 from phframe.core.rejection import Rejection
@@ -51,8 +52,9 @@ class Budget:
             raise InputError(f"a budget of {self.simulations!r} simulations is none: give 0 or more")
 
 
-Apply = Callable[[State, Action, Stop | None], Transition]
 ApplyMany = Callable[[Sequence[Pair], Stop | None], Iterable[Transition]]
+Sample = Callable[[int], Sequence[Particle]]
+"""As many samples of the world at the task's start as are asked for."""
 Reach = Callable[[State, Action], Unreachable | None]
 """Whether the arm that will carry an action out can, from a state; None: it can."""
 ObjectReach = Callable[[State, str], Unreachable | None]
@@ -68,6 +70,8 @@ class Task:
         goal: What is to be achieved.
         arm: The arm seen from above.
         rejected: Actions that could not be carried out or came to nothing, and why; see ``rejects``.
+        earlier: What the plan before this one had tried from where its last action that was carried out was to lead: a tree
+            whose root is the state that was expected there. None: this is the first plan.
         rng: The only source of randomness.
         budget: What may be spent; ``apply`` keeps to it.
     """
@@ -85,14 +89,18 @@ class Task:
         apply_many: ApplyMany | None = None,
         budget: Budget = Budget(),
         rejected: tuple[Rejection, ...] = (),
+        earlier: ExploredTree | None = None,
         reach: Reach | None = None,
+        confirm: Apply | None = None,
+        sample: Sample | None = None,
         object_reach: ObjectReach | None = None,
         steered: SupportsPropagation[Any] | None = None,
         begin_steering: Begin | None = None,
         advisor: Advisor = NOBODY,
     ) -> None:
         self.scene, self.start, self.goal, self.arm = scene, start, goal, arm
-        self.rejected, self.rng, self.budget = rejected, rng, budget
+        self.rejected, self.earlier, self.rng, self.budget = rejected, earlier, rng, budget
+        self._confirm, self._sample = confirm, sample
         self._apply, self._apply_many, self._topology = apply, apply_many, topology
         self._reach, self._steered, self._begin_steering = reach, steered, begin_steering
         self._object_reach = object_reach
@@ -125,6 +133,32 @@ class Task:
             self._spend(len(pairs))
             return [self.apply(state, action, stop=stop) for state, action in pairs]
         return self._simulated(lambda: list(many(pairs, stop)), len(pairs))
+
+    @property
+    def confirms(self) -> bool:
+        """Whether actions can be simulated in the engine that will execute them, which is another than the planning world's."""
+        return self._confirm is not None
+
+    def confirm(self, state: State, action: Action) -> Transition:
+        """``apply`` in the engine that will execute the plan, and by its arm; without one, in the planning world.
+
+        Args:
+            state: The state; one that this returned holds the arm where it stands then.
+            action: What is done. One that the arm cannot do changes nothing; the motion says why.
+        """
+        confirm = self._confirm or self._apply
+        return self._simulated(lambda: confirm(state, action, None))
+
+    def particles(self, number: int) -> tuple[Particle, ...]:
+        """Samples of what the world may be at the task's start; none where what is believed of it is certain.
+
+        Each applies actions within the budget, as ``apply`` does.
+        """
+        drawn = self._sample(number) if self._sample is not None else ()
+        return tuple(replace(particle, apply=self._within_budget(particle.apply)) for particle in drawn)
+
+    def _within_budget(self, apply: Apply) -> Apply:
+        return lambda state, action, stop: self._simulated(lambda: apply(state, action, stop))
 
     def rejects(self, action: Action) -> Rejection | None:
         """Why an action is not to be proposed (again); None: it may be. Deviations below a millimetre do not count."""

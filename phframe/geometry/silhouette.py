@@ -2,58 +2,80 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from phframe.core import FloatArray, Outline, rotation_matrix
-from phframe.geometry.convex_hull import convex_hull
-from phframe.geometry.polygon import signed_distance
+from phframe.core import FloatArray
+from phframe.geometry.parts import Angles, edges_of, turned, turns
 
 
 class Silhouette:
-    """The outlines of an arm that is tilted against the corridor, with the fingertip at the origin.
+    """The outlines of an arm that is tilted against the corridor; or, one by one, at several tilts. The fingertip is at the origin.
+
+    Depths and directions are one for each tilt, on the last axis, or one for all.
 
     Args:
-        outlines: Of the arm.
-        tilt: Against the corridor (rad).
+        parts: Of the arm, corners ``(m, v, 2)``, counter-clockwise, in the fingertip frame (m).
+        tilts: Against the corridor.
+
+    Attributes:
+        turns: ``(..., 2, 2)`` from the fingertip frame to the one that it is tilted against.
+        parts: The parts, tilted: ``(..., m, v, 2)``.
+        front: ``(...)`` how far the foremost point is ahead of the fingertip (m).
+        lowest: ``(...)`` least y of all points (m).
+        highest: ``(...)`` greatest y of all points (m).
     """
 
-    def __init__(self, outlines: Sequence[Outline], tilt: float) -> None:
-        self._polygons = [outline.vertices @ rotation_matrix(tilt).T for outline in outlines]
-        self._starts = np.concatenate(self._polygons)
-        self._ends = np.concatenate([np.vstack([polygon[1:], polygon[:1]]) for polygon in self._polygons])
-        self.front = float(self._starts[:, 0].max())
+    def __init__(self, parts: FloatArray, tilts: Angles) -> None:
+        self.turns, self.parts = turns(tilts), turned(parts, tilts)
+        (self._x, self._y), (ends_x, ends_y) = (
+            _by_corner(each) for each in (self.parts, np.roll(self.parts, -1, axis=-2))
+        )
+        runs, rises = _by_corner(edges_of(self.parts))
+        upright = runs == 0.0
+        self._runs, self._rises = np.where(upright, 1.0, runs), np.where(upright, 0.0, rises)
+        self._nearest, self._farthest = np.minimum(self._x, ends_x), np.maximum(self._x, ends_x)
+        self._north, self._south = (
+            np.where(upright, most(self._y, ends_y), self._y) for most in (np.maximum, np.minimum)
+        )
+        self.front, self.lowest, self.highest = self._x.max(axis=0), self._y.min(axis=0), self._y.max(axis=0)
 
-    def side(self, depths: FloatArray, direction: int) -> FloatArray:
-        """How far the arm reaches to one side (+1 or -1) of the fingertip at depths ``(k,)``, ``(k,)`` (m).
+    def side(self, depths: FloatArray, direction: ArrayLike) -> FloatArray:
+        """How far the arm reaches to one side (+1 or -1) of the fingertip at depths ``(k, ...)``, the same shape (m).
 
         Ahead of the arm it is what its front reaches: that is what meets an object standing there.
         """
-        x = np.minimum(depths, self.front)[:, None]
-        x0, x1 = self._starts[:, 0], self._ends[:, 0]
-        crosses = (np.minimum(x0, x1) <= x) & (x <= np.maximum(x0, x1))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            fraction = np.where(x0 == x1, 0.0, (x - x0) / (x1 - x0))
-        y0, y1 = self._starts[:, 1], self._ends[:, 1]
-        reach = np.where(x0 == x1, np.maximum(direction * y0, direction * y1), direction * (y0 + fraction * (y1 - y0)))
-        return np.asarray(np.where(crosses, reach, -np.inf).max(axis=1))
+        way = np.asarray(direction)
+        bases, rises = np.where(way > 0, self._north, -self._south), way * self._rises
+        x = np.minimum(depths, self.front)
+        crosses = (self._nearest[:, None] <= x) & (x <= self._farthest[:, None])
+        with np.errstate(over="ignore", invalid="ignore"):
+            reach = bases[:, None] + (x - self._x[:, None]) / self._runs[:, None] * rises[:, None]
+        return np.asarray(np.where(crosses, reach, -np.inf).max(axis=0))
 
-    def meets(self, points: FloatArray, radius: float, start: FloatArray, end: FloatArray) -> bool:
-        """Whether it comes nearer than a radius (m) to any of the points ``(k, 2)`` as its fingertip goes straight on.
+    def widest_side(self, nearest: ArrayLike, farthest: ArrayLike, direction: ArrayLike) -> FloatArray:
+        """The most it reaches to one side between two depths ``(...)``, ``(...)`` (m)."""
+        north, south = self._corner_sides
+        corners = np.where(np.asarray(direction) > 0, north, south)
+        between = np.where((self._x > nearest) & (self._x < farthest), corners, -np.inf).max(axis=0)
+        at_ends = self.side(np.array([nearest, farthest]), direction).max(axis=0)
+        return np.asarray(np.maximum(at_ends, between))
 
-        A convex part sweeps over the convex hull of where it is first and last.
+    @cached_property
+    def tip_sides(self) -> tuple[FloatArray, FloatArray]:
+        """How far it reaches to the north, and to the south, at the depth of the fingertip ``(...)`` (m)."""
+        tip = np.zeros((1, *self.front.shape))
+        return self.side(tip, 1)[0], self.side(tip, -1)[0]
 
-        Args:
-            points: In the frame that the arm is tilted against (m).
-            radius: Of the round objects there (m).
-            start: Where the fingertip is at first ``(2,)`` (m).
-            end: Where it is in the end ``(2,)`` (m).
-        """
-        swept = (convex_hull(np.concatenate([part + start, part + end])) for part in self._polygons)
-        return any(signed_distance(region, point) < radius for region in swept for point in points)
+    @cached_property
+    def _corner_sides(self) -> tuple[FloatArray, FloatArray]:
+        """How far it reaches to the north, and to the south, at the depth of each corner ``(e, ...)`` (m)."""
+        return self.side(self._x, 1), self.side(self._x, -1)
 
-    def widest_side(self, nearest: float, farthest: float, direction: int) -> float:
-        """The most it reaches to one side between two depths (m)."""
-        between = self._starts[:, 0][(self._starts[:, 0] > nearest) & (self._starts[:, 0] < farthest)]
-        return float(self.side(np.array([nearest, farthest, *between]), direction).max())
+
+def _by_corner(parts: FloatArray) -> FloatArray:
+    """Parts ``(..., m, v, 2)`` as x and y of all corners ``(2, m v, ...)``: what is many comes last, for numpy's sake."""
+    corners = parts.reshape(*parts.shape[:-3], -1, 2)
+    return np.ascontiguousarray(np.moveaxis(corners, (-1, -2), (0, 1)))

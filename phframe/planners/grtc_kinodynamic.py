@@ -232,7 +232,7 @@ class _KinodynamicClearing:
         """Whether the arm at a pose keeps off the walls, and its fingertip off other objects."""
         apart = np.linalg.norm(state.positions - pose[:2], axis=1) - self._scene.radii
         others = state.on_board & (np.arange(len(apart)) != row)
-        off_walls = self._closed.walls(float(pose[2])).is_free(pose[:2])
+        off_walls = bool(self._closed.walls(float(pose[2])).is_free(pose[:2]))
         return steerer.room.holds(pose) and off_walls and bool((apart[others] > self._task.arm.insertion_width).all())
 
     def _to_place(self, decision: SteeredDecision, steerer: Steerer) -> ObjectNear:

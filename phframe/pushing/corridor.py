@@ -88,6 +88,23 @@ def find_corridor(target: FloatArray, shelf: Shelf, half_width: float) -> Corrid
     return Corridor(np.zeros(2), 0.0, y, half_width, 0.0, depth)
 
 
+def corridor_at(angle: float, target: FloatArray, half_width: float, beyond: float = 0.0) -> Corridor:
+    """The strip that leads from the mouth to the target at any angle.
+
+    Its frame has its origin where its centre line crosses the mouth plane; it begins before that, so that no corner of it
+    inside the shelf is left out.
+
+    Args:
+        angle: Of the strip (rad), positive towards the north.
+        target: Centre ``(2,)`` of the target in the shelf frame (m).
+        half_width: w (m).
+        beyond: How far past the target's centre it leads (m).
+    """
+    ahead = np.array([math.cos(angle), math.sin(angle)])
+    end = float(target[0]) / ahead[0]
+    return Corridor(target - end * ahead, angle, 0.0, half_width, -half_width * abs(math.tan(angle)), end + beyond)
+
+
 def with_room(corridor: Corridor, shelf: Shelf, centers: FloatArray, radii: FloatArray) -> Corridor:
     """A corridor, or the angled one in its place where there is no room between a straight one and the wall next to it.
 

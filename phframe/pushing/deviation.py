@@ -28,6 +28,8 @@ class Deviation(StrEnum):
     """No sweep takes everything it pushes out of the corridor; this one at least moves it."""
     NEXT_SWEEP = "next sweep"
     """The sweep before it stalled, spilled something or moved nothing when it was simulated, or led to no plan in a search."""
+    CUT_SHORT = "sweep cut short"
+    """It stalled when it was simulated, so it ends a little before that."""
     GRASP_TURNED = "grasp turned"
     """The gripper deviates from the corridor's axis, past neighbours or a wall."""
     GRASP_TIGHT = "grasp with little room"

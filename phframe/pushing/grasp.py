@@ -3,37 +3,29 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from itertools import accumulate, chain
 
-import numpy as np
-from numpy.typing import NDArray
-
-from phframe.core import (
-    MOUTH_CLEARANCE,
-    Action,
-    ActionKind,
-    ArmShape,
-    Contacts,
-    GripperPath,
-    Infeasible,
-    Phase,
-    PhaseRule,
-    Scene,
-    State,
-    rotation_matrix,
-)
+from phframe.core import Action, ArmShape, Infeasible, Scene, Shelf, State
 from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.geometry.arm_view import ArmView
-from phframe.geometry.straight_motion import distances_on_way_in
 from phframe.pushing.corridor import Corridor
 from phframe.pushing.deviation import Deviation
 from phframe.pushing.options import ROUNDING, PushingOptions
+from phframe.pushing.reach import FREE, Fit, Reaches, Severity, Surroundings
 
 YAW_STEPS = tuple(math.radians(degrees) for degrees in (0, 5, -5, 10, -10, 15, -15, 20, -20, 25, -25, 30, -30))
 """Deviations from the corridor's axis, tried in this order as far as the options allow (rad)."""
 FITS = ((0.02, 0.008), (0.01, 0.005), (0.004, 0.003))
 """How far the fingertips go past the target's centre, and the room between it and each open finger (m): wide first."""
+KEPT_FITS = 16
+"""For how many pairs of an arm and a target the views are kept: those used last."""
+REJECTED = Infeasible("every grasp that nothing blocks was rejected")
+
+Rejects = Callable[[Action], object]
+"""Tells why an action is not to be proposed again; None: it may be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,12 +35,97 @@ class Grasp:
     Attributes:
         action: What to do.
         corridor: Along which the target was to be reached.
+        clearance: Least distance of the open arm from walls and from objects other than the target, on its way in (m).
+        withdraws_between_walls: Whether on the way out the arm and the target stay between the side walls, thought on
+            before the mouth, and the target meets no object.
         deviations: The deviations it needed, by name.
     """
 
     action: Action
     corridor: Corridor
+    clearance: float
+    withdraws_between_walls: bool
     deviations: tuple[Deviation, ...] = ()
+
+
+class GraspFinder:
+    """Looks for grasps of one target by one arm, at any angle and in any state. Holds nothing that changes.
+
+    Args:
+        scene: The scene, with the target.
+        arm: Seen from above.
+        options: For speeds, clearances and turns.
+    """
+
+    def __init__(self, scene: Scene, arm: ArmShape, options: PushingOptions) -> None:
+        row = scene.target_index
+        self._around = Surroundings(scene.shelf, scene.ids, scene.radii, row, arm.min_opening, options)
+        self._fits = _fits(scene.shelf, arm, self._around.radius, options.neighbour_clearance)
+        self._widest = arm.max_opening
+        self._turns = [turn for turn in YAW_STEPS if abs(turn) <= options.max_grasp_turn + ROUNDING]
+
+    def grasp(self, state: State, corridor: Corridor, rejects: Rejects = lambda _: None) -> Grasp | Infeasible:
+        """The grasp along one corridor; see ``candidates``."""
+        return self.candidates(state, [corridor], rejects)[0]
+
+    def candidates(
+        self, state: State, corridors: Sequence[Corridor], rejects: Rejects = lambda _: None
+    ) -> list[Grasp | Infeasible]:
+        """For each corridor the reach along its axis, the grasp and the withdrawal; or what the drive is blocked by.
+
+        The gripper is turned by up to 15 degrees past neighbours. The link must pass free of obstacles and walls (the
+        paper's success). What obstructs the yaw with the fewest obstacles is named in the result.
+
+        Args:
+            state: The world at rest.
+            corridors: To the target, where it is in that state. Of each, only the angle counts.
+            rejects: Tells why an action is not to be proposed again; None: it may be.
+        """
+        found: list[Grasp | Infeasible] = [self._too_wide] * len(corridors)
+        yaws = [self._yaws(corridor.angle) for corridor in corridors]
+        ends = list(accumulate(map(len, yaws)))
+        # The same yaws with every fit, also of corridors that have their grasp: what is known of the arm at them is kept.
+        at_once = tuple(chain.from_iterable(yaws))
+        for fit in self._fits if at_once else ():
+            reaches: Reaches | None = None
+            for place, (least, its, end) in enumerate(zip(found, yaws, ends, strict=True)):
+                if isinstance(least, Infeasible):
+                    reaches = reaches or Reaches(self._around, state, fit, at_once)
+                    found[place] = self._first(
+                        reaches, range(end - len(its), end), corridors[place], fit, least, rejects
+                    )
+        return found
+
+    def _first(
+        self, reaches: Reaches, rows: range, corridor: Corridor, fit: Fit, least: Infeasible, rejects: Rejects
+    ) -> Grasp | Infeasible:
+        """The first reach that nothing obstructs; where there is none, what obstructs least, the last of those alike."""
+        severity, best = _severity(least), -1
+        for row in rows:
+            its = reaches.severities[row]
+            if its == FREE:
+                action = reaches.action(row)
+                if rejects(action) is None:
+                    return self._found(reaches, row, action, corridor, fit)
+                if _severity(REJECTED) <= severity:
+                    severity, best, least = _severity(REJECTED), -1, REJECTED
+            elif its <= severity:
+                severity, best = its, row
+        return least if best < 0 else reaches.obstruction(best)
+
+    def _found(self, reaches: Reaches, row: int, action: Action, corridor: Corridor, fit: Fit) -> Grasp:
+        turned = (Deviation.GRASP_TURNED,) if reaches.yaws[row] != corridor.angle else ()
+        deviations = (*turned, Deviation.GRASP_TIGHT) if fit.tight else turned
+        return Grasp(action, corridor, reaches.clearance(row), reaches.withdraws_between_walls(row), deviations)
+
+    def _yaws(self, angle: float) -> list[float]:
+        """The yaws tried along a corridor, in this order."""
+        return [angle + turn for turn in self._turns if math.cos(angle + turn) >= LEAST_AHEAD]
+
+    @property
+    def _too_wide(self) -> Infeasible:
+        wide, opens = 2.0 * self._around.radius, self._widest
+        return Infeasible(f"the target is {wide:g} m wide, too wide for a gripper that opens {opens:g} m")
 
 
 def grasp_action(
@@ -57,97 +134,22 @@ def grasp_action(
     corridor: Corridor,
     arm: ArmShape,
     options: PushingOptions,
-    rejects: Callable[[Action], object] = lambda _: None,
+    rejects: Rejects = lambda _: None,
 ) -> Grasp | Infeasible:
-    """The reach along the corridor's axis, the grasp and the withdrawal, turned by up to 15 degrees past neighbours.
-
-    The link must pass free of obstacles and walls (the paper's success). What obstructs the yaw with the fewest
-    obstacles is named in the result.
-
-    Args:
-        scene: The scene.
-        state: The world at rest.
-        corridor: To the target.
-        arm: Seen from above.
-        options: For speeds, clearances and turns.
-        rejects: Tells why an action is not to be proposed again; None: it may be.
-    """
-    radius = float(scene.radii[scene.target_index])
-    least = Infeasible(f"the target is {2 * radius:g} m wide, too wide for a gripper that opens {arm.max_opening:g} m")
-    for fit, (past, clearance) in enumerate(FITS):
-        opening = 2.0 * (radius + clearance)
-        if opening > arm.max_opening:
-            continue
-        view = ArmView(scene.shelf, arm.outlines(opening), options.neighbour_clearance)
-        for yaw_offset in YAW_STEPS:
-            if abs(yaw_offset) > options.max_grasp_turn + ROUNDING:
-                continue
-            if math.cos(corridor.angle + yaw_offset) < LEAST_AHEAD:
-                continue
-            reach = _Reach(scene, state, corridor.angle + yaw_offset, view, past, options)
-            obstruction = reach.obstruction()
-            if obstruction is None:
-                action = reach.action(opening, radius, arm.min_opening)
-                if rejects(action) is None:
-                    return Grasp(action, corridor, _deviations(fit, yaw_offset))
-                obstruction = Infeasible("every grasp that nothing blocks was rejected")
-            least = min(obstruction, least, key=_severity)
-    return least
+    """The reach along a corridor's axis, the grasp and the withdrawal; see ``GraspFinder``, which answers more than once."""
+    return GraspFinder(scene, arm, options).grasp(state, corridor, rejects)
 
 
-def _deviations(fit: int, yaw_offset: float) -> tuple[Deviation, ...]:
-    turned = (Deviation.GRASP_TURNED,) if yaw_offset else ()
-    return (*turned, Deviation.GRASP_TIGHT) if fit else turned
+@lru_cache(maxsize=KEPT_FITS)
+def _fits(shelf: Shelf, arm: ArmShape, radius: float, clearance: float) -> tuple[Fit, ...]:
+    """The fits for a target of a radius (m) that the gripper opens wide enough for, the arm kept clear of walls (m)."""
+    openings = [(past, 2.0 * (radius + beside)) for past, beside in FITS]
+    return tuple(
+        Fit(past, opening, fit > 0, ArmView(shelf, arm.outlines(opening), clearance))
+        for fit, (past, opening) in enumerate(openings)
+        if opening <= arm.max_opening
+    )
 
 
-def _severity(obstruction: Infeasible) -> tuple[bool, int]:
-    """Obstructing objects count less than walls, few less than many."""
+def _severity(obstruction: Infeasible) -> Severity:
     return not obstruction.blockers, len(obstruction.blockers)
-
-
-class _Reach:
-    """A straight reach at one yaw."""
-
-    def __init__(
-        self, scene: Scene, state: State, yaw: float, view: ArmView, past: float, options: PushingOptions
-    ) -> None:
-        self._scene, self._state, self._yaw, self._options = scene, state, yaw, options
-        self._view, self._boxes = view, view.boxes
-        self._target = state.positions[scene.target_index]
-        self._ahead = np.array([math.cos(yaw), math.sin(yaw)])
-        self._tip = self._target + past * self._ahead
-        front = view.silhouette(yaw).front
-        self._length = (float(self._tip[0]) + front + MOUTH_CLEARANCE) / self._ahead[0]
-
-    def obstruction(self) -> Infeasible | None:
-        """What obstructs the reach: walls, or the objects by name."""
-        start = self._tip - self._length * self._ahead
-        walls = self._view.walls(self._yaw)
-        if walls.travel(start, self._ahead, self._length) < self._length:
-            return Infeasible(f"grasp blocked by a wall at yaw {math.degrees(self._yaw):.0f} degrees")
-        blockers = tuple(self._scene.ids[row] for row in np.flatnonzero(self._blocked()))
-        return Infeasible(f"grasp blocked by {', '.join(blockers)}", blockers) if blockers else None
-
-    def _blocked(self) -> NDArray[np.bool_]:
-        """Mask ``(n,)`` of the objects that the arm would touch on its way in."""
-        local = (self._state.positions - self._tip) @ rotation_matrix(self._yaw)
-        lower, upper = self._boxes
-        distance = distances_on_way_in(local, lower, upper, self._length).min(axis=0)
-        distance[self._scene.target_index] = np.inf
-        return np.asarray((distance < self._scene.radii + self._options.neighbour_clearance) & self._state.on_board)
-
-    def action(self, opening: float, radius: float, closed: float) -> Action:
-        """Reach, close the fingers, draw straight out until the whole target is well outside the mouth."""
-        out = (float(self._target[0]) + radius + self._options.withdrawal) / self._ahead[0]
-        start = self._tip - self._length * self._ahead
-        end = self._tip - max(out, self._length) * self._ahead
-        poses = np.column_stack([np.array([start, self._tip, self._tip, end]), np.full(4, self._yaw)])
-        speed = self._options.reach_speed
-        rules = {
-            Phase.REACH: PhaseRule(speed, opening, Contacts.MANIPULAND),
-            Phase.GRASP: PhaseRule(speed, closed, Contacts.MANIPULAND),
-            Phase.WITHDRAW: PhaseRule(speed, closed, Contacts.MANIPULAND),
-        }
-        target = self._scene.target
-        path = GripperPath(poses, (Phase.REACH, Phase.GRASP, Phase.WITHDRAW), rules, target)
-        return Action(f"grasp {target}", path, (target,), ActionKind.GRASP)

@@ -58,8 +58,8 @@ def merged_labels(labels: IntArray, owners: IntArray) -> IntArray:
     Returns:
         ``(k,)``, counted in the order of first appearance among the owners.
     """
-    joined = labels.copy()
-    for owner in range(int(owners.max(initial=-1)) + 1):
+    joined, count = labels.copy(), int(owners.max(initial=-1)) + 1
+    for owner in range(count if count < len(owners) else 0):
         own = joined[owners == owner]
         joined[np.isin(joined, own)] = own.min()
     firsts = joined[np.unique(owners, return_index=True)[1]]

@@ -130,7 +130,11 @@ class PushSearch:
         made = self.task.apply(self.state(node), grasp.action)
         decision = PushDecision("nothing blocks the grasp", grasp.deviations, corridor=grasp.corridor)
         end = self.tree.child(node, grasp.action, made, decision)
-        return end, self.task.goal.assess(self.task.scene, made.state, Attempt(grasp.action, made.motion))
+        return end, self.assess(grasp.action, made)
+
+    def assess(self, action: Action, made: Transition) -> Assessment:
+        """What the task's goal makes of an action."""
+        return self.task.goal.assess(self.task.scene, made.state, Attempt(action, made.motion))
 
     def fail(self, node: int, reason: str) -> Plan:
         """The plan that ends at a node without success, and why; what was rejected before is told, too."""

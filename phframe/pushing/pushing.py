@@ -19,10 +19,10 @@ from phframe.core import (
     rotation_matrix,
     yaw_of,
 )
-from phframe.geometry.arm_view import ArmView
+from phframe.geometry.arm_view import arm_view
 from phframe.pushing.corridor import Corridor, corridor_half_width, find_corridor, with_room
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.grasp import Grasp, grasp_action
+from phframe.pushing.grasp import Grasp, GraspFinder
 from phframe.pushing.grouping import closest_component, merged_labels
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
@@ -51,7 +51,8 @@ class Pushing:
         self.scene = task.goal.scene(task.scene) if isinstance(task.goal, Retrieve) else task.scene
         self.half_width = corridor_half_width(options.half_width, self.scene, task.arm)
         self._radii = self.scene.radii
-        self._view = ArmView(self.scene.shelf, task.arm.closed, options.wall_clearance)
+        self._view = arm_view(self.scene.shelf, task.arm, task.arm.min_opening, options.wall_clearance)
+        self._grasps = GraspFinder(self.scene, task.arm, options)
         obstacles = np.delete(self._radii, self.scene.target_index)
         self.threshold = usable_threshold(options.insertion_width, float(obstacles.max(initial=0.0)))
 
@@ -71,17 +72,22 @@ class Pushing:
         if isinstance(corridor, Infeasible):
             return corridor
         chosen = self._with_room(corridor, state) if self.options.sweeps == "fitted" else corridor
-        members = self._members(chosen, state, blockers)
         deviations = () if chosen is corridor else (Deviation.ANGLED_EARLY,)
-        local = chosen.to_local(state.positions[members])
-        return PushProblem(state, chosen, members, local, tuple(blockers), deviations)
+        return replace(self.problem_along(state, chosen, blockers), deviations=deviations)
+
+    def problem_along(self, state: State, corridor: Corridor, blockers: Sequence[str] = ()) -> PushProblem:
+        """What is to be pushed out of any corridor to the target; see ``corridor_at``."""
+        members = self._members(corridor, state, blockers)
+        return PushProblem(state, corridor, members, corridor.to_local(state.positions[members]), tuple(blockers))
 
     def _with_room(self, corridor: Corridor, state: State) -> Corridor:
         inside = self._members(corridor, state)
         return with_room(corridor, self.scene.shelf, state.positions[inside], self._radii[inside])
 
     def _members(self, corridor: Corridor, state: State, blockers: Sequence[str] = ()) -> IntArray:
-        counts = corridor.contains(state.positions) | np.isin(self.scene.ids, list(blockers))
+        counts = corridor.contains(state.positions)
+        if blockers:
+            counts |= np.isin(self.scene.ids, list(blockers))
         counts[self.scene.target_index] = False
         return np.flatnonzero(counts & state.on_board)
 
@@ -174,11 +180,14 @@ class Pushing:
 
     def grasp(self, problem: PushProblem) -> Grasp | Infeasible:
         """The reach, grasp and withdrawal along the corridor, if the target can be got at without what was rejected."""
-        task, corridor = self.task, problem.corridor
-        found = grasp_action(self.scene, problem.state, corridor, task.arm, self.options, task.rejects)
+        (found,) = self.grasps_along(problem.state, [problem.corridor])
         if isinstance(found, Infeasible):
             return found
         return replace(found, deviations=(*problem.deviations, *found.deviations))
+
+    def grasps_along(self, state: State, corridors: Sequence[Corridor]) -> list[Grasp | Infeasible]:
+        """The same along each of any corridors; see ``corridor_at``."""
+        return self._grasps.candidates(state, corridors, self.task.rejects)
 
     def _generator(self, problem: PushProblem, chosen: IntArray) -> SweepGenerator:
         return SweepGenerator(

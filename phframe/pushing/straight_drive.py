@@ -21,7 +21,7 @@ from phframe.core import (
     StopCause,
     rotation_matrix,
 )
-from phframe.geometry.arm_view import ArmView
+from phframe.geometry.arm_view import ArmView, arm_view
 from phframe.geometry.straight_motion import distances_on_way_in
 from phframe.pushing.grasp import Grasp
 from phframe.pushing.pushing import Pushing
@@ -77,7 +77,7 @@ def straight_drive(pushing: Pushing, state: State) -> StraightDrive | Infeasible
     path, scene = grasp.action.path, pushing.scene
     rule = replace(path.rules[Phase.REACH], contacts=Contacts.OBJECTS)
     drive = GripperPath(path.poses[:2], (Phase.REACH,), {Phase.REACH: rule})
-    view = ArmView(scene.shelf, pushing.task.arm.outlines(rule.opening), pushing.options.neighbour_clearance)
+    view = arm_view(scene.shelf, pushing.task.arm, rule.opening, pushing.options.neighbour_clearance)
     return StraightDrive(Action(f"drive straight at {scene.target}", drive, kind=ActionKind.MOVE), grasp, view)
 
 

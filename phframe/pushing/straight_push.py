@@ -24,7 +24,7 @@ from phframe.core import (
     State,
     rotation_matrix,
 )
-from phframe.geometry.arm_view import ArmView
+from phframe.geometry.arm_view import arm_view
 from phframe.geometry.straight_motion import distances_on_way_in
 from phframe.pushing.options import Clearance, PushingOptions, Speed
 from phframe.pushing.pushing import Pushing
@@ -82,7 +82,8 @@ class StraightPusher:
 
     def __init__(self, pushing: Pushing, options: StraightPushOptions) -> None:
         self._pushing, self._scene, self._options = pushing, pushing.scene, options
-        self._view = ArmView(self._scene.shelf, pushing.task.arm.closed, options.wall_clearance)
+        arm = pushing.task.arm
+        self._view = arm_view(self._scene.shelf, arm, arm.min_opening, options.wall_clearance)
 
     def free_places(self, state: State, row: int, drive: StraightDrive, spacing: float) -> FloatArray:
         """Places ``(k, 2)`` for an object (m): on a grid, apart from all others, outside the corridor, off the drive.
@@ -151,7 +152,7 @@ class StraightPusher:
 
     def _way_out(self, tip: FloatArray, yaw: float) -> float:
         """Length of the straight way from a fingertip position to where the whole arm is before the mouth (m)."""
-        front = self._view.silhouette(yaw).front
+        front = float(self._view.silhouette(yaw).front)
         return max(0.0, float(tip[0]) + front + MOUTH_CLEARANCE) / math.cos(yaw)
 
     def _obstruction(self, points: FloatArray, at: FloatArray, radius: float, yaw: float) -> str:

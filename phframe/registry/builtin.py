@@ -21,6 +21,13 @@ EXTENSIONS = [
     ),
     _own(
         Kind.PLANNER,
+        "sure",
+        "phframe.planners.sure:Sure",
+        "Searches for the fewest harmless pushes that lead to a clean grasp at any angle, and confirms them before it moves",
+        variants=(("confirm=false", "The same, carried out as it was planned"),),
+    ),
+    _own(
+        Kind.PLANNER,
         "ooa",
         "phframe.planners.ooa:OOA",
         "Pushes one obstacle at a time, the closest first; no grouping",
@@ -75,6 +82,13 @@ EXTENSIONS = [
         "pymunk",
         "phframe.backends.pymunk_.physics:PymunkPhysics",
         "The shelf from above, in 2D, with Coulomb friction: fast",
+    ),
+    _own(
+        Kind.BACKEND,
+        "fast",
+        "phframe.backends.fast_.physics:FastPhysics",
+        "The same shelf from above, compiled by numba: many times faster, made to plan in",
+        extra="fast",
     ),
     _own(
         Kind.BACKEND,

@@ -9,10 +9,8 @@ from typing import Any
 import numpy as np
 
 from phframe.core import (
-    NOBODY,
     Action,
     ActionKind,
-    Advisor,
     Assessment,
     Attempt,
     Budget,
@@ -20,6 +18,7 @@ from phframe.core import (
     Cost,
     Decision,
     Episode,
+    ExploredTree,
     Goal,
     Plan,
     Planner,
@@ -34,6 +33,7 @@ from phframe.core import (
     Watch,
 )
 from phframe.core.episode import MOVED
+from phframe.runtime.aids import Aids
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
@@ -53,7 +53,7 @@ def run_episode(
     spec: RunSpec,
     observers: Sequence[Observer] = (),
     sensor: Sensor | None = None,
-    advisor: Advisor = NOBODY,
+    aids: Aids = Aids(),  # noqa: B008 - immutable
 ) -> Episode:
     """Plan in one world and carry the plan out in another, which may be more real.
 
@@ -69,10 +69,10 @@ def run_episode(
         observers: Who looks on.
         sensor: Through which the robot sees the world: what it plans, expects and aims at comes from that, what is told
             of the episode from the world as it is. None: it sees everything as it is.
-        advisor: Whom the planner may ask.
+        aids: What the planner may use besides.
     """
     see = (lambda state: state) if sensor is None else sensor.see
-    return _Run(planner, topology, planning, execution, goal, spec, observers, see, advisor).episode()
+    return _Run(planner, topology, planning, execution, goal, spec, observers, see, aids).episode()
 
 
 class _Run:
@@ -88,11 +88,11 @@ class _Run:
         spec: RunSpec,
         observers: Sequence[Observer],
         see: Callable[[State], State],
-        advisor: Advisor,
+        aids: Aids,
     ) -> None:
         self._planner, self._topology, self._planning, self._execution = planner, topology, planning, execution
         self._goal, self._spec, self._loop, self._observers, self._see = goal, spec, spec.loop, observers, see
-        self._advisor, self._scene = advisor, execution.scene
+        self._aids, self._scene = aids, execution.scene
         self._seeds = np.random.SeedSequence(spec.seed)
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
@@ -121,7 +121,7 @@ class _Run:
             tuple(self._plans),
             tuple(self._steps),
             self._rejections,
-            self._execution.motion_planning_time + self._planning.motion_planning_time,
+            self._execution.motion_planning_time + self._motion_planning_within,
             versions_of(self._spec),
         )
 
@@ -164,25 +164,42 @@ class _Run:
         """Ask the planner, with what is left of the time."""
         spent, loop = sum((plan.cost for plan in self._plans), Cost()), self._loop
         simulations = None if loop.simulations is None else max(0, loop.simulations - spent.simulated_actions)
-        before = self._planning.motion_planning_time
+        before = self._motion_planning_within
+        confirmation, particles = self._aids.confirmation, self._aids.particles
+        start = self._seen if self._same_arm else _for_another_arm(self._seen)
         task = self._planning.task(
-            self._seen if self._same_arm else _for_another_arm(self._seen),
+            start,
             self._topology,
             np.random.default_rng(self._seeds.spawn(1)[0]),
             goal=self._goal,
             arm=self._execution.arm.shape,
             budget=Budget(max(0.0, loop.time_limit - spent.total), simulations),
             rejected=self._rejections,
+            earlier=self._earlier,
             reach=self._execution.unreachable,
+            confirm=None if confirmation is None else confirmation.apply,
+            sample=None if particles is None else lambda number: particles.draw(start, number),
             object_reach=self._execution.out_of_reach,
-            advisor=self._advisor,
+            advisor=self._aids.advisor,
         )
         plan = self._planner.plan(task)
-        within = self._planning.motion_planning_time - before
+        within = self._motion_planning_within - before
         plan = replace(plan, cost=replace(plan.cost, motion_planning=plan.cost.motion_planning + within))
         self._plans.append(plan)
         self._tell(lambda observer: observer.planned(plan))
         return plan
+
+    @property
+    def _motion_planning_within(self) -> float:
+        """Wall time of motion planning for simulated actions so far (s)."""
+        return self._planning.motion_planning_time + self._aids.motion_planning_time
+
+    @property
+    def _earlier(self) -> ExploredTree | None:
+        """What the last plan had tried from where its actions that were carried out were to lead."""
+        if not self._plans or (tree := self._plans[-1].tree) is None:
+            return None
+        return tree.after(sum(step.plan == len(self._plans) - 1 for step in self._steps))
 
     @property
     def _same_arm(self) -> bool:

@@ -13,7 +13,7 @@ from phframe.core import OptionError, Options, Scene, coulomb_with_board
 
 STREAM = 2**32 - 1
 """Key of the stream of random numbers that noise has for itself, so that planners draw the same with it and without."""
-POSITIONS, FRICTION = 0, 1
+POSITIONS, FRICTION, PARTICLES = 0, 1, 2
 """What that stream is split into, so that either draws the same whatever the other does."""
 
 

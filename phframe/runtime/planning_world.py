@@ -18,6 +18,7 @@ from phframe.core import (
     ArmShape,
     ArmState,
     Budget,
+    ExploredTree,
     FloatArray,
     Goal,
     Motion,
@@ -27,6 +28,7 @@ from phframe.core import (
     Stop,
     StopCause,
     StopReason,
+    SupportsManySimulations,
     SupportsPropagation,
     Task,
     TopologyEngine,
@@ -34,7 +36,8 @@ from phframe.core import (
     Unreachable,
     Watch,
 )
-from phframe.core.task import ObjectReach, Pair, Reach
+from phframe.core.particle import Apply
+from phframe.core.task import ObjectReach, Pair, Reach, Sample
 from phframe.runtime.world import World, WorldSpec
 
 
@@ -64,6 +67,8 @@ class PlanningWorld(World):
 
     def apply_many(self, pairs: Sequence[Pair], stop: Stop | None = None) -> list[Transition]:
         """``apply`` to many pairs, in their order; the same bits whatever the number of workers."""
+        if isinstance(self.physics, SupportsManySimulations):
+            return self._apply_at_once(self.physics, pairs, stop)
         if self._workers == 1 or len(pairs) < 2:
             return [self.apply(state, action, stop) for state, action in pairs]
         if self._pool is None:
@@ -72,6 +77,21 @@ class PlanningWorld(World):
         results = list(self._pool.map(_Worker.apply, pairs, repeat(stop), chunksize=1))
         self.motion_planning_time += sum(seconds for _, seconds in results)
         return [transition for transition, _ in results]
+
+    def _apply_at_once(
+        self, physics: SupportsManySimulations, pairs: Sequence[Pair], stop: Stop | None
+    ) -> list[Transition]:
+        """``apply`` to many pairs in one call of the engine; what has to draw back is done again on its own."""
+        planned = [self.plan_trajectory(state, action) for state, action in pairs]
+        feasible = [row for row, found in enumerate(planned) if not isinstance(found, Unreachable)]
+        ending = Stop(wall=True) if stop is None else replace(stop, wall=True)
+        simulated = physics.simulate_many(
+            [pairs[row][0] for row in feasible],
+            [found for found in planned if not isinstance(found, Unreachable)],
+            stop=ending,
+        )
+        whole = {row: found for row, found in zip(feasible, simulated, strict=True) if _ends_there(found.motion)}
+        return [whole[row] if row in whole else self.apply(*pair, stop) for row, pair in enumerate(pairs)]
 
     def task(
         self,
@@ -83,7 +103,10 @@ class PlanningWorld(World):
         arm: ArmShape | None = None,
         budget: Budget = Budget(),  # noqa: B008 - immutable
         rejected: tuple[Rejection, ...] = (),
+        earlier: ExploredTree | None = None,
         reach: Reach | None = None,
+        confirm: Apply | None = None,
+        sample: Sample | None = None,
         object_reach: ObjectReach | None = None,
         advisor: Advisor = NOBODY,
     ) -> Task:
@@ -97,10 +120,14 @@ class PlanningWorld(World):
             arm: The one that will carry the plan out; None: this world's.
             budget: What the planner may spend.
             rejected: Actions that could not be carried out, or came to nothing.
+            earlier: What the plan before had tried from where it was to be now; None: there was none.
             reach: Whether the arm that will carry the plan out can follow an action; None: not known.
+            confirm: Simulates an action in the engine that will carry the plan out; None: that is this world's.
+            sample: Draws samples of what the world may be; None: what is believed of it is certain.
             object_reach: Whether that arm can have an object grasped where it stands; None: not known.
             advisor: Whom the planner may ask.
         """
+        at_once = isinstance(self.physics, SupportsManySimulations)
         return Task(
             scene=self.scene,
             start=start,
@@ -108,11 +135,14 @@ class PlanningWorld(World):
             arm=self.arm.shape if arm is None else arm,
             topology=topology,
             apply=self.apply,
-            apply_many=self.apply_many if self._workers > 1 else None,
+            apply_many=self.apply_many if self._workers > 1 or at_once else None,
             rng=rng,
             budget=budget,
             rejected=rejected,
+            earlier=earlier,
             reach=reach,
+            confirm=confirm,
+            sample=sample,
             object_reach=object_reach,
             steered=self.physics if isinstance(self.physics, SupportsPropagation) else None,
             begin_steering=self._begin_steering,
@@ -135,6 +165,11 @@ class PlanningWorld(World):
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
             self._pool = None
+
+
+def _ends_there(motion: Motion) -> bool:
+    """Whether nothing follows a motion: it was followed to its end, or stopped as asked for."""
+    return motion.complete or (motion.stopped is not None and motion.stopped.cause is not StopCause.WALL)
 
 
 class _Worker:

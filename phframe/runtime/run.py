@@ -21,11 +21,14 @@ from phframe.core import (
 )
 from phframe.core.run_spec import PARTS
 from phframe.registry import Kind, create, identify, load, refuse_stored_code
+from phframe.runtime.aids import Aids
+from phframe.runtime.confirmation import Confirmation
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.mounting import Told, mounted
 from phframe.runtime.noise import Noise
 from phframe.runtime.observer import Observer
+from phframe.runtime.particles import Particles
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.sensor import Sensor
@@ -34,7 +37,12 @@ from phframe.runtime.world import WorldSpec
 PLAN_BACKEND = "pymunk"
 """Where plans are made that an engine of joints carries out: many times faster."""
 PLAN_OPTIONS: Mapping[str, Any] = {"standing_radius": 2.0 / 3.0, "arm_acceleration": 10.0}
-"""Of that backend, where an engine in space carries the plans out; see docs/fidelity.md."""
+"""Of pymunk, where an engine in space carries the plans out; see docs/fidelity.md."""
+FITTED: Mapping[str, Mapping[str, Any]] = {
+    "pymunk": PLAN_OPTIONS,
+    "fast": {"arm_acceleration": 10.0, "object_friction": 0.15, "stall_lag": 0.02},
+}
+"""The same of every backend that was fitted to an engine in space."""
 
 
 def run(
@@ -58,9 +66,22 @@ def run(
         ready = prepare(mounted(spec, _teller(observers)))
         planning = stack.enter_context(PlanningWorld(ready.plan_world, spec.workers))
         execution = stack.enter_context(ExecutionWorld(ready.world))
-        sensor = Sensor(ready.noise, ready.scene, execution.arm.shape, spec.seed)
+        shape = execution.arm.shape
+        sensor = Sensor(ready.noise, ready.scene, shape, spec.seed)
+        believed, particles = replace(ready.world, scene=ready.plan_world.scene), None
+        confirmation = None if believed == ready.plan_world else stack.enter_context(Confirmation(believed))
+        if ready.noise != Noise():
+            particles = stack.enter_context(Particles(ready.plan_world, ready.noise, shape, spec.seed))
         return run_episode(
-            ready.planner, ready.topology, planning, execution, ready.goal, ready.spec, observers, sensor, advisor
+            ready.planner,
+            ready.topology,
+            planning,
+            execution,
+            ready.goal,
+            ready.spec,
+            observers,
+            sensor,
+            Aids(advisor, confirmation, particles),
         )
 
 
@@ -150,7 +171,7 @@ def _plan_world(
     drives_joints = load(Kind.BACKEND, world.backend).executes is JointTrajectory
     backend = parts["plan_backend"][0] or (PLAN_BACKEND if drives_joints else world.backend)
     arm = parts["plan_arm"][0] or world.arm
-    fitted = PLAN_OPTIONS if drives_joints and backend == PLAN_BACKEND else {}
+    fitted = FITTED.get(backend, {}) if drives_joints and isinstance(backend, str) else {}
     inherited = {
         "plan_backend": world.backend_options if backend == world.backend else fitted,
         "plan_arm": world.arm_options if arm == world.arm else {},

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import gc
 import pickle
 import subprocess
 import sys
+from weakref import ref
 
 import numpy as np
 import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
-from phframe.core import FloatArray, JointTrajectory, OptionError, Phase, State, Stop, StopCause
+from phframe.backends.pymunk_.state import set_in_motion
+from phframe.backends.pymunk_.world import lay_floor
+from phframe.core import FloatArray, JointTrajectory, OptionError, Phase, Settle, State, Stop, StopCause
 from phframe.testing import PHYSICS_CHECKS, PhysicsUnderTest
 from phframe.testing.physics.paths import CROWD_SWEEP, MIDDLE, crowd, cylinder, drive_in, grasp, path, scene_of
 from phframe.testing.physics.stand import on_stand
@@ -95,8 +99,7 @@ def test_what_is_held_drags_along_the_board(mass: float, fast: bool) -> None:
         assert isinstance(physics, PymunkPhysics)
         physics.restore(gripped)
         if not fast:
-            physics._current.items["other"].body.velocity = 0.0, -0.05
-            physics._current.at_rest = False
+            set_in_motion(physics._current, np.array([[0.0, -0.05, 0.0], [0.0, 0.0, 0.0]]))
         out = path(np.array([_gripper(gripped), [0.1, MIDDLE, 0.0]]), [Phase.WITHDRAW], speed=0.2)
         motion = physics.execute(stand.trajectory(gripped, out), settle=None)
         assert motion.complete
@@ -159,3 +162,34 @@ def test_checks_can_be_run_on_backends_that_execute_joints(check: object) -> Non
 def test_bad_options_are_told(given: dict[str, str]) -> None:
     with pytest.raises(OptionError, match="backend pymunk"):
         PymunkOptions.parse(given, "backend pymunk")
+
+
+@pytest.mark.parametrize("standing", [None, 2 / 3])
+def test_friction_that_is_there_from_the_beginning_changes_no_bit(standing: float | None) -> None:
+    """Objects get it just before something can touch them, since its joints are most of what a step costs."""
+    with on_stand(subject(PymunkOptions(standing_radius=standing)), crowd()) as stand:
+        physics = stand.physics
+        assert isinstance(physics, PymunkPhysics)
+        later = stand.run(stand.start, CROWD_SWEEP).state
+        assert not all(item.floor for item in physics._current.items.values()), "some were out of reach all the time"
+        physics.restore(stand.start)
+        for item in physics._current.items.values():
+            lay_floor(physics._current, item)
+        physics.execute(stand.trajectory(stand.start, CROWD_SWEEP), settle=Settle())
+        assert physics.observe() == later
+        assert stand.start.displacement(later).max() > 0.05, "much was pushed"
+
+
+def test_a_world_is_given_back_as_soon_as_the_next_is_built() -> None:
+    """Without the help of Python's collector of cycles, which lets hundreds of them pile up."""
+    with on_stand(subject(), crowd()) as stand:
+        physics = stand.physics
+        assert isinstance(physics, PymunkPhysics)
+        stand.run(stand.start, CROWD_SWEEP)
+        left = ref(physics._current.space)
+        gc.disable()
+        try:
+            physics.restore(stand.start)
+            assert left() is None
+        finally:
+            gc.enable()

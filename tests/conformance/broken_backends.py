@@ -7,8 +7,8 @@ from itertools import count
 from typing import Any, ClassVar
 
 import numpy as np
-import pymunk
 
+from phframe.backends.pymunk_.chipmunk import polygon
 from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
 from phframe.backends.pymunk_.world import WALL
 from phframe.core import (
@@ -231,10 +231,8 @@ class WallsWithoutEnd(Altered):
     def restore(self, state: State) -> State:
         restored = super().restore(state)
         world = self._current
-        wall = pymunk.Poly(world.space.static_body, [(-1.0, -1.0), (0.0, -1.0), (0.0, 0.0), (-1.0, 0.0)])
-        wall.collision_type = WALL
-        world.names[wall] = "south wall"
-        world.space.add(wall)
+        wall = polygon(world.space.board, [(-1.0, -1.0), (0.0, -1.0), (0.0, 0.0), (-1.0, 0.0)])
+        world.names[world.space.add_shape(wall, 0.0, WALL)] = "south wall"
         return restored
 
 

@@ -11,6 +11,7 @@ from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.backends.pymunk_.physics import PymunkOptions, PymunkPhysics
 from phframe.core import ArmModel, BasePose, Condition, InputError, Scene, State
 from phframe.testing import PHYSICS_CHECKS, Check, ConformanceError, PhysicsUnderTest, check_physics
+from phframe.testing.physics.many import MANY_CHECKS
 from phframe.testing.physics.paths import crowd
 from phframe.testing.physics.propagation import PROPAGATION_CHECKS
 from phframe.testing.subjects import PhysicsFactory
@@ -115,7 +116,7 @@ def found_by(check: Check[PhysicsUnderTest], backend: Broken) -> str:
     return str(caught.value)
 
 
-OF_ALL = [check for check in PHYSICS_CHECKS if check not in PROPAGATION_CHECKS]
+OF_ALL = [check for check in PHYSICS_CHECKS if check not in (*PROPAGATION_CHECKS, *MANY_CHECKS)]
 
 
 @pytest.mark.parametrize("check", OF_ALL, ids=lambda check: check.name)

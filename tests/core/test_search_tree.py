@@ -93,6 +93,43 @@ def test_a_summary_keeps_the_chosen_path_and_counts_the_rest(tree: SearchTree, m
     assert short.summarised(most) == short
 
 
+@given(trees, st.data())
+def test_the_part_after_some_actions_begins_there_and_goes_on_as_before(tree: SearchTree, data: st.DataObject) -> None:
+    whole = tree.explored(data.draw(st.integers(0, len(tree) - 1)))
+    done = data.draw(st.integers(0, len(whole.path)))
+    part = whole.after(done)
+    begin = (whole.nodes[ROOT], *whole.path)[done]
+    root = part.nodes[ROOT]
+    assert (root.state, root.parent, root.action, root.closed) == (begin.state, None, begin.action, begin.closed)
+    assert [node.state for node in part.path] == [node.state for node in whole.path[done:]]
+    assert [node.action for node in part.path] == [node.action for node in whole.path[done:]]
+    assert not part.omitted
+
+
+@given(trees, st.data())
+def test_the_part_after_some_actions_holds_all_that_follows_and_nothing_else(
+    tree: SearchTree, data: st.DataObject
+) -> None:
+    whole = tree.explored(data.draw(st.integers(0, len(tree) - 1)))
+    done = data.draw(st.integers(0, len(whole.path)))
+    begin = (whole.nodes[ROOT], *whole.path)[done]
+    follow = [row for row in range(len(tree)) if begin in (whole.nodes[ROOT], *tree.path(row))]
+    part = whole.after(done)
+    assert len(part.nodes) == len(follow)
+    for row, node in zip(follow[1:], part.nodes[1:], strict=True):
+        assert (node.state, node.action, node.closed) == (tree[row].state, tree[row].action, tree[row].closed)
+        assert part.nodes[node.parent or ROOT].state == tree[tree[row].parent or ROOT].state
+
+
+@given(trees, st.data())
+def test_parts_of_parts_are_parts(tree: SearchTree, data: st.DataObject) -> None:
+    whole = tree.explored(data.draw(st.integers(0, len(tree) - 1)))
+    first = data.draw(st.integers(0, len(whole.path)))
+    second = data.draw(st.integers(0, len(whole.path) - first))
+    assert whole.after(first).after(second) == whole.after(first + second)
+    assert whole.after(0) == whole
+
+
 def test_a_tree_of_a_hundred_thousand_nodes_is_a_small_file() -> None:
     root = SearchNode(state(0.0))
     more = SearchNode(state(0.1), ROOT, Action("a", PATH), Motion(1.0), Decision(), closed="stalled")

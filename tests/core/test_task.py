@@ -18,16 +18,19 @@ from phframe.core import (
     BudgetExceededError,
     Contacts,
     Cylinder,
+    ExploredTree,
     Goal,
     GripperPath,
     Motion,
     Options,
+    Particle,
     Phase,
     PhaseRule,
     Plan,
     Planner,
     Scene,
     SceneObject,
+    SearchNode,
     Shelf,
     SimulationDivergedError,
     State,
@@ -36,6 +39,7 @@ from phframe.core import (
     Task,
     Transition,
 )
+from phframe.core.particle import Apply
 from phframe.topology.single_linkage import SingleLinkage
 
 SCENE = Scene("one", Shelf(0.6, 0.6), (SceneObject("t", Cylinder(0.03), (0.3, 0.3)),), "t")
@@ -168,3 +172,66 @@ def test_the_topology_engine_is_asked() -> None:
     points = np.array([[0.0, 0.0], [0.1, 0.0], [0.5, 0.0]])
     assert task().components(points, 0.2).tolist() == [0, 0, 1]
     np.testing.assert_allclose(task().diagram(points).finite_deaths, [0.1, 0.4], rtol=1e-6)
+
+
+def moves(by: float) -> Apply:
+    """An engine in which every action moves the target deeper by so much (m)."""
+
+    def apply(state: State, _action: Action, _stop: Stop | None = None) -> Transition:
+        poses = state.poses.copy()
+        poses[0, 0] += by
+        return Transition(State(poses, state.conditions), Motion(1.0))
+
+    return apply
+
+
+def test_what_is_confirmed_comes_from_the_engine_that_executes() -> None:
+    both = task(apply=moves(0.01), confirm=moves(0.02))
+    assert both.confirms
+    assert both.confirm(START, ACTION) == moves(0.02)(START, ACTION, None)
+    assert both.apply(START, ACTION) == moves(0.01)(START, ACTION, None)
+
+
+def test_without_another_engine_the_planning_world_confirms() -> None:
+    alone = task(apply=moves(0.01))
+    assert not alone.confirms
+    assert alone.confirm(START, ACTION) == alone.apply(START, ACTION)
+
+
+def test_what_is_confirmed_or_rehearsed_counts_as_simulated_and_keeps_to_the_budget() -> None:
+    def sample(number: int) -> list[Particle]:
+        return [Particle(START, moves(0.01 * each)) for each in range(number)]
+
+    limited = task(budget=Budget(simulations=3), confirm=slow(moves(0.02)), sample=sample)
+    [first, second] = limited.particles(2)
+    assert limited.cost.simulated_actions == 0
+    assert limited.confirm(START, ACTION).state.positions[0, 0] == pytest.approx(0.32)
+    assert limited.cost.simulation >= 0.01
+    assert first.apply(START, ACTION, None).state == START
+    assert second.apply(START, ACTION, None).state.positions[0, 0] == pytest.approx(0.31)
+    assert (limited.cost.simulated_actions, limited.simulations_left) == (3, 0)
+    for again in (limited.confirm, lambda state, action: first.apply(state, action, None)):
+        with pytest.raises(BudgetExceededError, match="the budget of 3 simulated actions is used up"):
+            again(START, ACTION)
+    assert limited.cost.simulated_actions == 3
+
+
+def slow(apply: Apply) -> Apply:
+    """The same, but a hundredth of a second later."""
+
+    def later(state: State, action: Action, stop: Stop | None) -> Transition:
+        time.sleep(0.01)
+        return apply(state, action, stop)
+
+    return later
+
+
+def test_where_the_world_is_certain_there_are_no_particles() -> None:
+    assert task().particles(8) == ()
+    assert task(sample=lambda number: []).particles(8) == ()
+
+
+def test_the_first_plan_knows_of_none_before() -> None:
+    assert task().earlier is None
+    before = ExploredTree((SearchNode(START),))
+    assert task(earlier=before).earlier is before

@@ -10,6 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from phframe.core import FloatArray, Outline
+from phframe.geometry.parts import stacked
 from phframe.geometry.wall_clearance import WallClearance
 from tests.pushing.parts import ARM, SHELF, gap_to_walls, often
 
@@ -35,7 +36,7 @@ def keeps_its_promise(
     outlines: tuple[Outline, ...], tip: FloatArray, yaw: float, heading: float, distance: float, margin: float
 ) -> None:
     ahead = np.array([math.cos(heading), math.sin(heading)])
-    travel = WallClearance(SHELF, outlines, yaw, margin).travel(tip, ahead, distance)
+    travel = WallClearance(SHELF, stacked(outlines), yaw, margin).travel(tip, ahead, distance)
     assert 0.0 <= travel <= distance
     for fraction in np.linspace(0.0, 1.0, 12):
         assert gap(outlines, tip + fraction * travel * ahead, yaw) >= margin - 1e-6
@@ -68,37 +69,70 @@ def test_parts_may_have_any_number_of_corners(corners: int) -> None:
 def test_free_is_where_the_arm_is_in_no_wall(yaw: float, x: float, y: float) -> None:
     between = gap(ARM.closed, np.array([x, y]), yaw)
     assume(abs(between) > 1e-6)
-    assert WallClearance(SHELF, ARM.closed, yaw, 1e-9).is_free(np.array([x, y])) is (between > 0.0)
+    assert WallClearance(SHELF, stacked(ARM.closed), yaw, 1e-9).is_free(np.array([x, y])) == (between > 0.0)
 
 
 def test_a_straight_arm_stops_at_the_margin_from_each_wall() -> None:
-    walls, tip = WallClearance(SHELF, ARM.closed, 0.0, 0.002), np.array([0.3, 0.3])
+    walls, tip = WallClearance(SHELF, stacked(ARM.closed), 0.0, 0.002), np.array([0.3, 0.3])
     ways = {(1.0, 0.0): 0.298, (0.0, 1.0): 0.3 - 0.06 - 0.002, (0.0, -1.0): 0.3 - 0.06 - 0.002, (-1.0, 0.0): 1.0}
     for way, room in ways.items():
         assert walls.travel(tip, np.array(way), 1.0) == pytest.approx(room)
 
 
 def test_along_a_wall_the_way_is_free_and_from_within_one_it_is_not() -> None:
-    walls = WallClearance(SHELF, ARM.closed, 0.0, 0.002)
+    walls = WallClearance(SHELF, stacked(ARM.closed), 0.0, 0.002)
     assert walls.travel(np.array([0.0, 0.0621]), np.array([1.0, 0.0]), 0.5) == 0.5
     assert walls.travel(np.array([0.2, 0.05]), np.array([1.0, 0.0]), 0.5) == 0.0
     assert not walls.is_free(np.array([0.2, 0.05]))
 
 
 def test_beside_the_mouth_there_is_a_wall_and_before_it_there_is_none() -> None:
-    walls = WallClearance(SHELF, ARM.closed, 0.0, 0.0)
+    walls = WallClearance(SHELF, stacked(ARM.closed), 0.0, 0.0)
     assert walls.travel(np.array([-0.2, -0.1]), np.array([1.0, 0.0]), 1.0) == pytest.approx(0.2)
     assert walls.travel(np.array([-0.2, -0.1]), np.array([0.0, -1.0]), 1.0) == 1.0
 
 
 def test_parts_with_fewer_corners_than_others_meet_walls_without_a_margin_too() -> None:
     bar = Outline("bar", np.array([[-0.1, -0.01], [-0.09, -0.01], [-0.09, 0.01], [-0.1, 0.01]]))
-    walls = WallClearance(SHELF, (WEDGE, bar), 0.0, 0.0)
+    walls = WallClearance(SHELF, stacked((WEDGE, bar)), 0.0, 0.0)
     assert walls.travel(np.array([0.2, 0.3]), np.array([1.0, 0.0]), 1.0) == pytest.approx(0.4)
     assert not walls.is_free(np.array([0.61, 0.3]))
 
 
 def test_a_yaw_that_is_nearly_nothing_is_none() -> None:
     tip, ahead = np.array([-0.05, 0.4]), np.array([1.0, 0.0])
-    tiny, none = (WallClearance(SHELF, ARM.closed, yaw, 0.002).travel(tip, ahead, 0.5) for yaw in (2e-311, 0.0))
+    tiny, none = (
+        WallClearance(SHELF, stacked(ARM.closed), yaw, 0.002).travel(tip, ahead, 0.5) for yaw in (2e-311, 0.0)
+    )
     assert tiny == pytest.approx(none)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@often
+@given(
+    reaches=st.lists(
+        st.tuples(yaws, st.floats(0.0, 0.6), st.floats(0.0, 0.6), headings, st.floats(0.0, 0.8)), min_size=1
+    )
+)
+def test_several_yaws_at_once_are_as_each_by_itself(
+    shape: str, reaches: list[tuple[float, float, float, float, float]]
+) -> None:
+    parts = stacked(SHAPES[shape])
+    many = WallClearance(SHELF, parts, tuple(yaw for yaw, *_ in reaches), 0.002)
+    tips, ways = np.array([[x, y] for _, x, y, *_ in reaches]), np.array([_along(way) for *_, way, _ in reaches])
+    lengths = np.array([length for *_, length in reaches])
+    ahead, back = many.room(tips, ways, lengths)
+    free, out = many.is_free(tips), many.lets_out(tips, lengths)
+    for row, (yaw, *_, length) in enumerate(reaches):
+        one = WallClearance(SHELF, parts, yaw, 0.002)
+        assert ahead[row] == pytest.approx(one.travel(tips[row], ways[row], length))
+        assert back[row] == pytest.approx(one.travel(tips[row], -ways[row], length))
+        assert free[row] == one.is_free(tips[row])
+        start = tips[row] - length * _along(yaw)
+        blocked = one.travel(tips[row], -_along(yaw), length), one.travel(start, _along(yaw), length)
+        if length > 0.0:
+            assert [bool(each >= length) for each in blocked] == [out[row]] * 2
+
+
+def _along(heading: float) -> FloatArray:
+    return np.array([math.cos(heading), math.sin(heading)])

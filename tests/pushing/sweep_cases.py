@@ -13,7 +13,7 @@ from phframe.geometry.arm_view import ArmView
 from phframe.pushing import Corridor, PushingOptions, find_corridor
 from phframe.pushing.grouping import bounding_rectangle
 from phframe.pushing.sweep_generator import SweepGenerator
-from phframe.pushing.tilted_sweep import Component, Direction, Push, TiltedSweep
+from phframe.pushing.tilted_sweep import Component, Direction, Push, TiltedSweeps, Way
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS
 
 
@@ -52,8 +52,8 @@ class Case:
         view = ArmView(self.shelf, outlines, PushingOptions().wall_clearance)
         component = Component(self.local, bounding_rectangle(self.local), RADIUS)
         options = PushingOptions()
-        sweep = TiltedSweep(self.corridor, component, view, RADIUS, direction=direction, tilt=tilt, options=options)
-        return sweep.push(())
+        (push,) = TiltedSweeps(self.corridor, component, view, RADIUS, [Way(direction, tilt)], options).fitted()
+        return push
 
     @property
     def pushes(self) -> list[Push]:

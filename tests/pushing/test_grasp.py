@@ -25,9 +25,9 @@ from phframe.core import (
 )
 from phframe.pushing.corridor import Corridor, find_corridor
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.grasp import FITS, YAW_STEPS, Grasp, grasp_action
+from phframe.pushing.grasp import FITS, YAW_STEPS, Grasp, GraspFinder, grasp_action
 from phframe.pushing.options import PushingOptions
-from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, gap_to_walls, gaps_to_points, often, scene_of
+from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, gap_to_walls, gaps_to_points, often, posed, scene_of
 from tests.pushing.sweep_cases import millimetres
 
 ALONG = np.linspace(0.0, 1.0, 15)
@@ -255,3 +255,65 @@ def test_rejected_grasps_are_not_proposed_until_none_is_left() -> None:
     assert isinstance(found, Infeasible)
     assert found.blockers == ()
     assert found.reason == "every grasp that nothing blocks was rejected"
+
+
+def turned_to(corridor: Corridor, degrees: float) -> Corridor:
+    return replace(corridor, angle=math.radians(degrees))
+
+
+@often
+@given(scenes(), st.lists(st.sampled_from([0, 15, -15, 30, -30, 45, -45, 75, -80]), max_size=9), st.booleans())
+def test_candidates_at_any_angles_are_as_each_by_itself(scene: Scene, degrees: list[int], straight: bool) -> None:
+    corridors = [corridor_of(scene), *[turned_to(corridor_of(scene), each) for each in degrees]]
+    state, options = scene.initial_state(), PushingOptions()
+    refuse = (lambda each: each.path.poses[0, 2] == 0.0 or None) if straight else (lambda _: None)
+    found = GraspFinder(scene, ARM, options).candidates(state, corridors, refuse)
+    assert found == [grasp_action(scene, state, corridor, ARM, options, refuse) for corridor in corridors]
+    for grasp, corridor in zip(found, corridors, strict=True):
+        if isinstance(grasp, Grasp):
+            assert grasp.corridor == corridor
+            assert abs(grasp.action.path.poses[0, 2] - corridor.angle) <= math.radians(15.0) + 1e-12
+
+
+def test_no_corridor_no_candidate() -> None:
+    scene = scene_of((0.4, 0.3))
+    assert GraspFinder(scene, ARM, PushingOptions()).candidates(scene.initial_state(), []) == []
+
+
+@often
+@given(scenes())
+def test_the_clearance_is_the_least_distance_on_the_way_in(scene: Scene) -> None:
+    found = planned(scene)
+    if isinstance(found, Infeasible):
+        return
+    poses, centers = found.action.path.poses, scene.initial_state().positions
+    outlines = ARM.outlines(found.action.path.rules[Phase.REACH].opening)
+    length = float(np.linalg.norm(poses[1, :2] - poses[0, :2]))
+    swept = [_drawn_back(outline, length) for outline in outlines]
+    objects = np.delete(gaps_to_points(swept, poses[1], centers) - scene.radii, scene.target_index)
+    walls = min(gap_to_walls(outlines, pose, scene.shelf) for pose in on_the_way_in(found.action))
+    assert found.clearance <= min(walls, objects.min(initial=1.0)) + 1e-9
+    if objects.min(initial=1.0) < walls:
+        assert found.clearance == pytest.approx(objects.min(initial=1.0), abs=1e-9)
+    assert found.clearance >= PushingOptions().neighbour_clearance - 1e-6
+
+
+@often
+@given(scenes(), st.sampled_from([0, 5, -10, 15, -30]))
+def test_a_withdrawal_between_the_walls_keeps_arm_and_target_between_them(scene: Scene, degrees: int) -> None:
+    corridor, state = turned_to(corridor_of(scene), degrees), scene.initial_state()
+    found = grasp_action(scene, state, corridor, ARM, PushingOptions())
+    if isinstance(found, Infeasible):
+        return
+    poses, width = found.action.path.poses[2:], scene.shelf.width
+    outlines = ARM.outlines(found.action.path.rules[Phase.REACH].opening)
+    y = [posed(outline.vertices, *pose)[:, 1] for outline in outlines for pose in poses]
+    held = state.positions[0] + np.linspace(0.0, 1.0, 100)[:, None] * (poses[1] - poses[0])[:2]
+    arm = min(float(np.min(y)), width - float(np.max(y)))
+    target = min(float(held[:, 1].min()), width - float(held[:, 1].max())) - RADIUS
+    others = np.linalg.norm(held[:, None] - state.positions[None, 1:], axis=2).min(initial=1.0) - 2.0 * RADIUS
+    if found.withdraws_between_walls:
+        assert min(arm, target) >= -1e-9
+        assert others >= -1e-5
+    elif min(arm, target) > 1e-9:
+        assert others < 1e-3

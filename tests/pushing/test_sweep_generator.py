@@ -219,3 +219,58 @@ def test_the_sweep_of_a_lone_object_in_the_middle() -> None:
     assert sweep.lane == pytest.approx(0.32 - 0.009 - 0.03 - 0.005)
     assert sweep.end == pytest.approx(0.3 + 0.12 + 0.001 - 0.009)
     assert sweep.entry == sweep.exit == pytest.approx(0.25 + 0.05)
+
+
+@often
+@given(anything)
+def test_all_that_clear_are_the_clearing_ones_of_every_way(case: Case) -> None:
+    clearing = case.geometry.all_clearing()
+    fitted = [case.fitted(direction, lean * direction) for direction in (1, -1) for lean in TILTS]
+    expected = {push.sweep for push in fitted if push is not None and push.clears}
+    assert len(clearing) == len({push.sweep for push in clearing})
+    assert {push.sweep for push in clearing} <= expected
+    assert {push.sweep for push in case.pushes if push.clears} <= {push.sweep for push in clearing}
+    assert all(push.clears for push in clearing)
+    rams = [push.rams for push in clearing]
+    assert rams == sorted(rams)
+    for direction in (1, -1):
+        for ram in (False, True):
+            tilts = [
+                abs(each.sweep.tilt) for each in clearing if each.sweep.direction == direction and each.rams is ram
+            ]
+            assert tilts == sorted(tilts), "the least tilt first"
+
+
+@often
+@given(anything)
+def test_the_clearance_is_the_least_distance_from_walls_and_target(case: Case) -> None:
+    target = np.array([case.target])
+    for push in case.pushes:
+        poses = fingertip_poses(case, push, 15)
+        walls = min(gap_to_walls(ARM.closed, pose, case.shelf) for pose in poses)
+        beside = min(float(gaps_to_points(ARM.closed, pose, target)[0]) for pose in poses) - RADIUS
+        clearance = case.geometry.clearance(push)
+        assert clearance <= min(walls, beside) + 1e-9
+        assert clearance >= min(walls, beside) - 0.02, "no more than between two samples"
+
+
+@often
+@given(anything)
+def test_neighbours_keep_the_rules_of_a_sweep(case: Case) -> None:
+    generator = case.geometry
+    for push in generator.pushes():
+        found = generator.neighbours(push)
+        clears = [each.clears for each in found]
+        assert clears == sorted(clears, reverse=True)
+        for each in found:
+            assert each.sweep != push.sweep
+            assert each.sweep.direction == push.sweep.direction
+            assert each.sweep.depth > case.local[:, 0].min() - 0.9 * RADIUS
+            assert nearest(case, each) < RADIUS + 1e-4
+            changed = (each.sweep.depth != push.sweep.depth) + (each.sweep.tilt != push.sweep.tilt)
+            assert changed <= 1
+            for pose in fingertip_poses(case, each):
+                assert gap_to_walls(ARM.closed, pose, case.shelf) >= PushingOptions().wall_clearance - 1e-6
+        if Deviation.LANE_SHIFTED not in push.deviations:
+            tilts = {abs(each.sweep.tilt - push.sweep.tilt) for each in found} - {0.0}
+            assert all(tilt == pytest.approx(math.radians(10.0)) for tilt in tilts)

@@ -15,7 +15,19 @@ from phframe.registry.extension import Extension
 from tests.registry.conftest import STRAIGHT, Discover, Install, offering
 
 ROOT = Path(__file__).parents[2]
-HEAVY = ["matplotlib", "mujoco", "persim", "pybullet", "pymunk", "pyRipser", "rerun", "ripser", "scipy", "sklearn"]
+HEAVY = [
+    "matplotlib",
+    "mujoco",
+    "numba",
+    "persim",
+    "pybullet",
+    "pymunk",
+    "pyRipser",
+    "rerun",
+    "ripser",
+    "scipy",
+    "sklearn",
+]
 
 
 def marks_of(extension: Extension) -> list[pytest.MarkDecorator]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections import deque
 
-import numpy as np
-
 from phframe.backends.contract import START_ANGLE, START_POSITION, first_contacts, force_reason, touch_reason
+from phframe.backends.pymunk_ import chipmunk
 from phframe.backends.pymunk_.braking import Pace, pace
-from phframe.backends.pymunk_.fast_forward import free_fraction, is_still, stays_outside
+from phframe.backends.pymunk_.fast_forward import Pose, free_fraction, is_still, stays_outside
+from phframe.backends.pymunk_.floors import Lookout
 from phframe.backends.pymunk_.gripper import (
     between_fingers,
     drag,
@@ -24,7 +24,6 @@ from phframe.backends.pymunk_.state import is_calm, read_state, refuse_divergenc
 from phframe.backends.pymunk_.world import ShelfSpace, note_contact, overlap
 from phframe.core import (
     FORCE_WINDOW,
-    FloatArray,
     GripperTrajectory,
     InputError,
     Motion,
@@ -71,7 +70,8 @@ class PymunkDrive:
         self._world, self._trajectory, self._step = world, trajectory, step
         self._stall_lag, self._stop, self._watch = stall_lag, stop, watch
         self._acceleration = acceleration
-        self._ticks = np.rint(trajectory.times / step).astype(int).tolist()
+        self._ticks = [round(time / step) for time in trajectory.times.tolist()]
+        self._poses: list[Pose] = trajectory.poses.tolist()
         window = max(1, round(FORCE_WINDOW / step))
         self._impulses: deque[float] = deque([0.0] * window, window)
         self._period = None if watch is None else max(1, round(watch.period / step))
@@ -79,6 +79,7 @@ class PymunkDrive:
         self._lag = self._force = 0.0
         self._stalled, self._settled = False, True
         self._cause: StopReason | None = None
+        self._lookout = Lookout(world, step)
 
     def run(self, settle: Settle | None) -> Motion:
         """Follow the trajectory, then wait for rest."""
@@ -103,17 +104,20 @@ class PymunkDrive:
         world, trajectory = self._world, self._trajectory
         world.tick = 0
         world.touched.clear()
-        world.arm.drive.max_force = trajectory.force_limit
+        world.begun.clear()
+        chipmunk.set_max_force(world.arm.drive, trajectory.force_limit)
         if world.parked:
-            place_arm(world, trajectory.poses[0])
+            place_arm(world, self._poses[0])
             set_opening(world, float(trajectory.openings[0]))
-        _refuse_jump(world, trajectory.poses[0])
+        _refuse_jump(world, self._poses[0])
         self._look(always=True)
 
     def _follow(self, leg: int) -> None:
         """Drive the carrier along a leg, fast-forwarding over what is free while all is still."""
         world, trajectory, end = self._world, self._trajectory, self._ticks[leg + 1]
-        world.arm.body.each_arbiter(note_contact, world.space, world)
+        for part, other, _ in chipmunk.contacts(world.arm.body):
+            note_contact(world, part, other)
+        self._lookout.expect(self._top_speed(leg, end - world.tick))
         if trajectory.openings[leg] != trajectory.openings[leg + 1]:
             self._open_or_close(leg, end)
         pace = self._pace(leg, end - world.tick)
@@ -128,27 +132,41 @@ class PymunkDrive:
         """How to come to rest at the end of a leg."""
         if self._acceleration is None or steps <= 0:
             return Pace()
-        x, y, _ = self._trajectory.poses[leg + 1] - self._trajectory.poses[leg]
+        x, y, _ = self._way(leg)
         return pace(math.hypot(x, y), steps, self._acceleration * self._step**2)
+
+    def _way(self, leg: int) -> Pose:
+        """How far a leg goes and turns."""
+        return [b - a for a, b in zip(self._poses[leg], self._poses[leg + 1], strict=True)]
+
+    def _top_speed(self, leg: int, steps: int) -> float:
+        """How fast (m/s) any part of the arm goes on a leg at most."""
+        x, y, turn = self._way(leg)
+        way = math.hypot(x, y) + abs(turn) * self._world.measures.length
+        return way / (self._pace(leg, steps).work(steps) * self._step)
 
     def _fast_forward(self, leg: int, end: int, pace: Pace) -> None:
         """Put the arm as far along a leg as nothing can happen, showing it on the way to whoever looks on."""
-        world, target = self._world, self._trajectory.poses[leg + 1]
-        start = np.array([*world.arm.carrier.position, world.arm.carrier.angle])
-        force = drag(world) if (start != target).any() else 0.0
-        if force >= self._strength or not (world.at_rest or is_still(world)):
+        world, target = self._world, self._poses[leg + 1]
+        if not (world.at_rest or is_still(world)):
             return
-        held = None if world.held is None else np.array(world.items[world.held].body.position)
+        start = [*world.arm.carrier.position, world.arm.carrier.angle]
+        force = drag(world) if start != target else 0.0
+        if force >= self._strength:
+            return
+        held = None if world.held is None else world.items[world.held].body.position
         begin, work = world.tick, pace.work(end - world.tick)
         fraction = free_fraction(world, start, target)
         free = end - begin if fraction >= 1.0 else min(math.floor(fraction * work), end - begin - pace.braking)
         self._impulses.extend([force * self._step] * min(free, len(self._impulses)))
         self._force = max(self._force, force if free > 0 else 0.0)
+        self._lookout.due = 0.0
         for world.tick in self._stops(begin, begin + free):
-            way = (target - start) * (1.0 - pace.work(end - world.tick) / work)
-            place_arm(world, start + way)
+            done = 1.0 - pace.work(end - world.tick) / work
+            x, y, turn = ((b - a) * done for a, b in zip(start, target, strict=True))
+            place_arm(world, (start[0] + x, start[1] + y, start[2] + turn))
             if held is not None:
-                place_held(world, held + way[:2])
+                place_held(world, (held[0] + x, held[1] + y))
             self._look()
 
     @property
@@ -167,7 +185,7 @@ class PymunkDrive:
     def _drive(self, leg: int, end: int, pace: Pace) -> None:
         """Step along a leg as long as the speed stays, looking after the arm on the way."""
         world, left = self._world, end - self._world.tick
-        self._set_speed(self._trajectory.poses[leg + 1], pace.steps(left) * self._step)
+        self._set_speed(self._poses[leg + 1], pace.steps(left) * self._step)
         world.at_rest = False
         self._advance(world.tick + min(SURVEY, max(left - pace.braking, 1)))
         survey(world)
@@ -176,14 +194,14 @@ class PymunkDrive:
         """Move the fingers along a leg, until they hold something; before the mouth, where they meet nothing, at once."""
         world, trajectory, begin = self._world, self._trajectory, self._world.tick
         first, last = (float(opening) for opening in trajectory.openings[leg : leg + 2])
-        if world.at_rest and stays_outside(world, trajectory.poses[leg], trajectory.poses[leg + 1]):
+        if world.at_rest and stays_outside(world, self._poses[leg], self._poses[leg + 1]):
             set_opening(world, last)
             return
         if world.held is not None and last <= world.opening:
             world.command = last
             return
         within_reach = between_fingers(world) if last < first and world.held is None else []
-        self._set_speed(trajectory.poses[leg + 1], (end - begin) * self._step)
+        self._set_speed(self._poses[leg + 1], (end - begin) * self._step)
         world.at_rest = False
         while world.tick < end and not self._ended:
             if (item := gripped(world, within_reach)) is not None:
@@ -202,34 +220,42 @@ class PymunkDrive:
             release(world)
         set_opening(world, told)
 
-    def _set_speed(self, target: FloatArray, duration: float) -> None:
+    def _set_speed(self, target: Pose, duration: float) -> None:
         """Make the carrier arrive at a pose in time; the drive need not accelerate the arm itself, nor what it can carry."""
         world, carrier, body = self._world, self._world.arm.carrier, self._world.arm.body
         x, y = carrier.position
-        carrier.velocity = (float(target[0]) - x) / duration, (float(target[1]) - y) / duration
-        carrier.angular_velocity = (float(target[2]) - carrier.angle) / duration
-        body.velocity, body.angular_velocity = carrier.velocity, carrier.angular_velocity
+        velocity, spin = (
+            ((target[0] - x) / duration, (target[1] - y) / duration),
+            (target[2] - carrier.angle) / duration,
+        )
+        carrier.velocity = body.velocity = velocity
+        carrier.angular_velocity = body.angular_velocity = spin
         if world.held is not None and drag(world) * self._step < self._full_impulse:
             carried = world.items[world.held].body
-            carried.velocity = body.velocity_at_world_point(carried.position)
+            carried.velocity = body.velocity_at(carried.position)
             carried.angular_velocity = body.angular_velocity
 
     def _advance(self, end: int) -> None:
         """Step until a number of steps or an end, and keep the mean force of the last 20 ms; the hot path."""
-        world, step, dt, drive = self._world, self._world.space.step, self._step, self._world.arm.drive
-        impulses, touched, begin = self._impulses, len(world.touched), world.tick
-        total, window = sum(impulses), len(impulses)
+        world, dt, step, impulse_of = self._world, self._step, chipmunk.step, chipmunk.impulse_of
+        space, drive, begun = world.space.handle, world.arm.drive, world.begun
+        impulses, lookout, watched, begin = self._impulses, self._lookout, self._watch is not None, world.tick
+        total, window, largest, full = sum(impulses), len(impulses), 0.0, self._full_impulse
         for world.tick in range(begin + 1, end + 1):
-            step(dt)
-            impulse = drive.impulse
+            if world.tick >= lookout.due:
+                lookout.look()
+            step(space, dt)
+            impulse = impulse_of(drive)
             total += impulse - impulses[0]
             impulses.append(impulse)
-            if impulse > 0.0:
-                self._weigh(total / window)
-            if self._period is not None:
+            mean = total / window
+            if impulse > 0.0 and (mean > largest or mean >= full):
+                largest = max(largest, mean)
+                self._weigh(mean)
+            if watched:
                 self._look()
-            if len(world.touched) > touched and self._stop is not None:
-                self._cause = self._cause or touch_reason(self._stop, world.touched)
+            if begun:
+                self._note_touches()
             if self._stalled or self._cause is not None:
                 return
 
@@ -240,10 +266,20 @@ class PymunkDrive:
             self._note_lag()
         self._cause = self._cause or force_reason(self._stop, mean / self._step)
 
+    def _note_touches(self) -> None:
+        """Write down what the arm began to touch in a step, and see whether that ends the motion."""
+        world = self._world
+        for part, other in world.begun:
+            note_contact(world, part, other)
+        world.begun.clear()
+        if self._stop is not None:
+            self._cause = self._cause or touch_reason(self._stop, world.touched)
+
     def _note_lag(self) -> None:
         """The drive gives all it has: see how far the arm is behind, and whether that is a stall."""
         arm = self._world.arm
-        lag = arm.body.position.get_distance(arm.carrier.position)
+        (x0, y0), (x1, y1) = arm.body.position, arm.carrier.position
+        lag = math.sqrt((x0 - x1) ** 2 + (y0 - y1) ** 2)
         self._lag = max(self._lag, lag)
         self._stalled = self._stalled or lag > self._stall_lag
 
@@ -310,8 +346,8 @@ class PymunkDrive:
         )
 
 
-def _refuse_jump(world: ShelfSpace, pose: FloatArray) -> None:
+def _refuse_jump(world: ShelfSpace, pose: Pose) -> None:
     x, y = world.arm.body.position
-    distance, turn = math.hypot(pose[0] - x, pose[1] - y), abs(float(pose[2]) - world.arm.body.angle)
+    distance, turn = math.hypot(pose[0] - x, pose[1] - y), abs(pose[2] - world.arm.body.angle)
     if distance > START_POSITION or turn > START_ANGLE:
         raise InputError(f"the trajectory begins {distance:.3f} m and {turn:.3f} rad from where the arm is")

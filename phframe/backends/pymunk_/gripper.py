@@ -6,29 +6,28 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import pymunk
 
-from phframe.backends.pymunk_.world import MovingFinger, ShelfItem, ShelfSpace
-from phframe.core import FloatArray
+from phframe.backends.pymunk_.chipmunk import Point, set_corners, set_group
+from phframe.backends.pymunk_.world import ARM_GROUP, MovingFinger, ShelfItem, ShelfSpace, lay_floor
 
 TOUCH = 5e-4
 """A finger this near (m) to an object touches it."""
 
 
-def place_arm(world: ShelfSpace, pose: FloatArray) -> None:
-    """Put the arm at a fingertip pose ``(3,)``, at rest; only where that is collision-free."""
+def place_arm(world: ShelfSpace, pose: Sequence[float]) -> None:
+    """Put the arm at a fingertip pose (x, y, yaw), at rest; only where that is collision-free."""
+    x, y, yaw = pose
     for body in (world.arm.body, world.arm.carrier):
-        body.position = float(pose[0]), float(pose[1])
-        body.angle = float(pose[2])
+        body.position, body.angle = (x, y), yaw
         body.velocity = 0.0, 0.0
         body.angular_velocity = 0.0
     world.parked = False
 
 
-def place_held(world: ShelfSpace, position: FloatArray) -> None:
-    """Put what is held at a position ``(2,)``, at rest, with the turn it has."""
+def place_held(world: ShelfSpace, position: Point) -> None:
+    """Put what is held at a position, at rest, with the turn it has."""
     held = world.items[world.held or ""].body
-    held.position = float(position[0]), float(position[1])
+    held.position = position
     held.velocity, held.angular_velocity = (0.0, 0.0), 0.0
 
 
@@ -38,7 +37,7 @@ def set_opening(world: ShelfSpace, opening: float) -> None:
         return
     shift = (opening - world.measures.min_opening) / 2.0
     for finger in world.arm.fingers:
-        finger.polygon.unsafe_set_vertices([(x, y + finger.side * shift) for x, y in finger.corners])
+        set_corners(finger.polygon, [(x, y + finger.side * shift) for x, y in finger.corners])
     world.opening = world.command = opening
 
 
@@ -64,7 +63,7 @@ def _reach(world: ShelfSpace, item: ShelfItem, finger: MovingFinger) -> float:
 
 def _gaps(world: ShelfSpace, item: ShelfItem) -> list[float]:
     """Distance from each finger's inner face to an object's centre (m); negative where it is not beside the finger."""
-    x, y = world.arm.body.world_to_local(item.body.position)
+    x, y = world.arm.body.to_local(item.body.position)
     half = world.opening / 2.0
     return [half - f.side * y if f.back <= x <= f.front else -1.0 for f in world.arm.fingers]
 
@@ -77,29 +76,28 @@ def hold(world: ShelfSpace, item: ShelfItem, command: float) -> None:
         item: What.
         command: The opening that the fingers go on being told to have (m), and squeeze for.
     """
-    item.shape.filter = pymunk.ShapeFilter(group=1)
-    grip = (
-        pymunk.PivotJoint(world.arm.body, item.body, (item.body.position.x, item.body.position.y)),
-        pymunk.GearJoint(world.arm.body, item.body, item.body.angle - world.arm.body.angle, 1.0),
-    )
-    world.space.add(*grip)
-    world.grip, world.held, world.command = grip, item.name, command
+    lay_floor(world, item)
+    set_group(item.shape, ARM_GROUP)
+    arm, body, at = world.arm.body, item.body, item.body.position
+    pivot = world.space.pivot(arm, body, arm.to_local(at), body.to_local(at))
+    world.grip = pivot, world.space.gear(arm, body, body.angle - arm.angle)
+    world.held, world.command = item.name, command
     stand(world, item)
 
 
 def release(world: ShelfSpace) -> None:
     """Let go of what is held: it stands on the board, free, where it is."""
     item = world.items[world.held or ""]
-    world.space.remove(*world.grip)
-    item.shape.filter = pymunk.ShapeFilter()
+    world.space.remove_joints(world.grip)
+    set_group(item.shape, 0)
     world.grip, world.held = (), None
 
 
 def stand(world: ShelfSpace, item: ShelfItem) -> None:
     """Let the board resist what is held, with its friction, up to the mouth, where the board ends."""
-    on_board = item.body.position.x >= 0.0
+    on_board = item.body.position[0] >= 0.0
     if on_board is not item.on_board:
-        (world.space.add if on_board else world.space.remove)(*item.floor)
+        (world.space.put_back if on_board else world.space.remove_joints)(item.floor)
         item.on_board = on_board
 
 

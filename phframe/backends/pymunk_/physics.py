@@ -17,7 +17,7 @@ from phframe.backends.pymunk_.drive import PymunkDrive
 from phframe.backends.pymunk_.gripper import hold, place_arm, set_opening
 from phframe.backends.pymunk_.measures import take_measures
 from phframe.backends.pymunk_.state import PymunkSnapshot, read_state, set_in_motion, take_snapshot
-from phframe.backends.pymunk_.world import PymunkModel, PymunkSurfaces, ShelfSpace, build_world
+from phframe.backends.pymunk_.world import PymunkModel, PymunkSurfaces, ShelfSpace, build_world, trimmed
 from phframe.core import (
     ArmError,
     FloatArray,
@@ -77,7 +77,7 @@ class PymunkPhysics(Physics[PymunkOptions]):
         refuse_foreign(self.scene, self.arm.shape, state)
         self._world = world = build_world(self.model, state)
         if state.arm is not None:
-            place_arm(world, state.arm.gripper)
+            place_arm(world, state.arm.gripper.tolist())
             set_opening(world, state.arm.opening)
             world.command = state.arm.commanded_opening
         if state.held is not None and state.held in world.items:
@@ -89,7 +89,8 @@ class PymunkPhysics(Physics[PymunkOptions]):
         """What all worlds that this object builds have in common."""
         o, shape = self.options, self.arm.shape
         surfaces = PymunkSurfaces(o.object_friction, o.arm_friction, o.standing_radius)
-        return PymunkModel(self.scene, shape, take_measures(shape), surfaces, o.iterations, o.arm_mass)
+        outlines = tuple(trimmed(outline.vertices) for outline in shape.closed)
+        return PymunkModel(self.scene, shape, outlines, take_measures(shape), surfaces, o.iterations, o.arm_mass)
 
     def execute(
         self, trajectory: Trajectory, *, settle: Settle | None, stop: Stop | None = None, watch: Watch | None = None

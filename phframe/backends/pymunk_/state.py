@@ -9,13 +9,13 @@ import numpy as np
 
 from phframe.backends.contract import TOP_SPEED
 from phframe.backends.pymunk_.gripper import stand
-from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace
-from phframe.core import ArmState, Condition, FloatArray, Floats, SimulationDivergedError, State, Value, planar_pose
+from phframe.backends.pymunk_.world import ShelfItem, ShelfSpace, lay_floor
+from phframe.core import ArmState, Condition, FloatArray, Floats, SceneObject, SimulationDivergedError, State, Value
 
 
 def read_state(world: ShelfSpace) -> State:
     """The world as it is now."""
-    poses = np.array([_pose(world, row) for row in range(len(world.scene.objects))])
+    poses = np.array([_pose(world, item) for item in world.scene.objects])
     conditions = tuple(_condition(world, name) for name in world.scene.ids)
     return State(poses, conditions, world.held, None if world.parked else _arm_state(world))
 
@@ -27,12 +27,13 @@ def _condition(world: ShelfSpace, name: str) -> Condition:
     return Condition.TOPPLED if name in world.toppled else Condition.UPRIGHT
 
 
-def _pose(world: ShelfSpace, row: int) -> FloatArray:
-    item = world.scene.objects[row]
+def _pose(world: ShelfSpace, item: SceneObject) -> list[float]:
+    """A pose, in plain numbers: an array of each object costs more than one of all."""
     if item.id in world.spilled:
         return world.spilled[item.id]
     body = world.items[item.id].body
-    return planar_pose(*body.position, item.shape.height / 2.0, body.angle)
+    (x, y), half = body.position, body.angle / 2.0
+    return [x, y, item.shape.height / 2.0, math.cos(half), 0.0, 0.0, math.sin(half)]
 
 
 def _arm_state(world: ShelfSpace) -> ArmState:
@@ -44,11 +45,12 @@ def survey(world: ShelfSpace) -> None:
     """Take what has left the board at the mouth out of the world; what is held stands on the board as far as that goes."""
     if world.held is not None:
         stand(world, world.items[world.held])
-    gone = [item for item in world.items.values() if item.body.position.x < 0.0 and item.name != world.held]
+    gone = [item for item in world.items.values() if item.body.position[0] < 0.0 and item.name != world.held]
     for item in gone:
-        world.spilled[item.name] = _pose(world, world.scene.index(item.name))
+        world.spilled[item.name] = _pose(world, item.thing)
         del world.items[item.name]
-        world.space.remove(item.shape, *(item.floor if item.on_board else ()), item.body)
+        world.space.remove_joints(item.floor if item.on_board else ())
+        world.space.remove(item.body, item.shape)
 
 
 def refuse_divergence(world: ShelfSpace) -> None:
@@ -57,7 +59,7 @@ def refuse_divergence(world: ShelfSpace) -> None:
     Raises:
         SimulationDivergedError: With the object and its speed.
     """
-    for item in world.items.values():
+    for item in world.movable:
         if not _speed(item) < TOP_SPEED:
             raise SimulationDivergedError(
                 f"the simulation diverged: {item.name!r} moves at {_speed(item):.3g} m/s; try a smaller backend step"
@@ -66,7 +68,7 @@ def refuse_divergence(world: ShelfSpace) -> None:
 
 def is_calm(world: ShelfSpace, speed: float) -> bool:
     """Whether every object on the board is slower than ``speed`` (m/s), rim included."""
-    return all(_speed(item) < speed for item in world.items.values())
+    return all(_speed(item) < speed for item in world.movable)
 
 
 def _speed(item: ShelfItem) -> float:
@@ -100,7 +102,8 @@ def take_snapshot(world: ShelfSpace) -> PymunkSnapshot:
 def set_in_motion(world: ShelfSpace, velocities: FloatArray) -> None:
     """Give the objects of a world that has just been built their speeds ``(n, 3)``."""
     for name, (x, y, spin) in zip(world.scene.ids, velocities.tolist(), strict=True):
-        if name in world.items:
+        if name in world.items and (x or y or spin):
+            lay_floor(world, world.items[name])
             world.items[name].body.velocity = x, y
             world.items[name].body.angular_velocity = spin
     world.at_rest = not velocities.any()

@@ -6,20 +6,35 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-import pymunk
 
 from phframe.backends.contract import GRAVITY
+from phframe.backends.pymunk_.chipmunk import (
+    ChipmunkBody,
+    ChipmunkSpace,
+    Handle,
+    Point,
+    contacts,
+    kind_of,
+    limit,
+    polygon,
+)
 from phframe.backends.pymunk_.measures import Measures
 from phframe.backends.pymunk_.shapes import Footprint, footprint
-from phframe.core import ArmShape, Condition, FloatArray, Outline, Scene, SceneObject, State, coulomb_with_board, yaw_of
+from phframe.core import ArmShape, Condition, FloatArray, Scene, SceneObject, State, coulomb_with_board, yaw_of
 
 WALL_THICKNESS = 0.1
 ARM, OBJECT, WALL = 1, 2, 3
 """Collision types."""
+ARM_GROUP = 1
+"""What passes through one another: the parts of the arm and what it holds."""
+CENTER = (0.0, 0.0)
 FEET = 6
 """Points that an object stands on; fewer resist differently in different directions."""
+FOOT_ANGLES = tuple(math.tau * point / FEET for point in range(FEET))
 TRIM = 1e-6
 """By how much the arm's outlines are smaller than they are (m)."""
+SLOP = 1e-4
+"""Overlap that the solver leaves alone (m)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,29 +67,28 @@ class ShelfItem:
 
     Attributes:
         thing: As the scene has it.
+        name: Its id.
+        radius: Its bounding radius seen from above (m).
         body: Where it is.
-        shape: Its outline.
-        floor: Joints of limited force that stand for its friction with the board.
+        foot: Its outline, and what it stands with.
         friction: Most that the board resists its sliding with, ``mu m g`` (N).
+        floor: Joints of limited force that stand for that friction; none yet while nothing can have moved it.
         on_board: Whether it stands on the board; what is held outside does not.
     """
 
     thing: SceneObject
-    body: pymunk.Body
-    shape: pymunk.Shape
-    floor: tuple[pymunk.Constraint, ...]
+    name: str
+    radius: float
+    body: ChipmunkBody
+    foot: Footprint
     friction: float
+    floor: tuple[Handle, ...] = ()
     on_board: bool = True
 
     @property
-    def name(self) -> str:
-        """Its id."""
-        return self.thing.id
-
-    @property
-    def radius(self) -> float:
-        """Its bounding radius seen from above (m)."""
-        return self.thing.radius
+    def shape(self) -> Handle:
+        """Its outline."""
+        return self.foot.primitive
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,9 +103,9 @@ class MovingFinger:
         front: Greatest x of the corners (m).
     """
 
-    polygon: pymunk.Poly
+    polygon: Handle
     side: int
-    corners: tuple[tuple[float, float], ...]
+    corners: tuple[Point, ...]
     back: float
     front: float
 
@@ -104,14 +118,14 @@ class DrivenArm:
         body: Origin at the fingertip.
         carrier: Kinematic.
         drive: Joins the two; its impulse is what the world pushes back with.
-        parts: Its shapes, and the outlines they have when the fingers are closed.
+        names: What its shapes are called.
         fingers: The parts that move with the opening.
     """
 
-    body: pymunk.Body
-    carrier: pymunk.Body
-    drive: pymunk.PivotJoint
-    parts: tuple[tuple[pymunk.Poly, Outline], ...]
+    body: ChipmunkBody
+    carrier: ChipmunkBody
+    drive: Handle
+    names: dict[Handle, str]
     fingers: tuple[MovingFinger, ...]
 
 
@@ -121,39 +135,48 @@ class ShelfSpace:
 
     Attributes:
         scene: What is modelled.
-        space: The pymunk space.
+        space: The space.
         items: Objects on the board or in the hand, by id.
         arm: The arm.
-        spilled: Last pose ``(7,)`` of what has left the board, by id.
+        spilled: Last pose (7 numbers) of what has left the board, by id.
         toppled: Ids of what lay on its side when the state was restored.
         names: What each shape is called, of objects, walls and parts of the arm.
         measures: Of the arm.
+        standing: Fraction of its radius at which an object stands on the board, as ``PymunkSurfaces`` has it.
         opening: Distance between the fingers now (m).
         command: Distance they are told to have (m).
         held: Id of the object in the hand.
         parked: The arm is out of the way and has not been placed yet.
         at_rest: Nothing moves.
         tick: Steps since the motion began.
+        begun: Shapes, the arm's first, that began to touch in the last step and are not in ``touched`` yet.
         touched: Arm contacts since the motion began: step, part of the arm, what it met, whether that is a wall.
         grip: Joints that hold the object in the hand.
     """
 
     scene: Scene
-    space: pymunk.Space
+    space: ChipmunkSpace
     items: dict[str, ShelfItem]
     arm: DrivenArm
-    spilled: dict[str, FloatArray]
-    toppled: frozenset[str]
-    names: dict[pymunk.Shape, str]
+    spilled: dict[str, list[float]]
+    toppled: set[str]
+    names: dict[Handle, str]
     measures: Measures
+    standing: float | None
     opening: float
     command: float
     held: str | None = None
     parked: bool = True
     at_rest: bool = True
     tick: int = 0
+    begun: list[tuple[Handle, Handle]] = field(default_factory=list)
     touched: list[tuple[int, str, str, bool]] = field(default_factory=list)
-    grip: tuple[pymunk.Constraint, ...] = ()
+    grip: tuple[Handle, ...] = ()
+
+    @property
+    def movable(self) -> list[ShelfItem]:
+        """What may have moved since the state was restored: the rest is as it was."""
+        return [item for item in self.items.values() if item.floor]
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,6 +186,7 @@ class PymunkModel:
     Attributes:
         scene: What is modelled.
         shape: Of the arm.
+        outlines: The same as the engine has them, closed: corners in the fingertip frame (m).
         measures: Of the arm.
         surfaces: Coefficients of friction.
         iterations: Of the solver, per step.
@@ -171,6 +195,7 @@ class PymunkModel:
 
     scene: Scene
     shape: ArmShape
+    outlines: tuple[tuple[Point, ...], ...]
     measures: Measures
     surfaces: PymunkSurfaces
     iterations: int
@@ -179,130 +204,101 @@ class PymunkModel:
 
 def build_world(model: PymunkModel, state: State) -> ShelfSpace:
     """A new space that holds ``state``; always new, since a used one remembers what ran in it."""
-    scene, shape, surfaces = model.scene, model.shape, model.surfaces
-    space = pymunk.Space()
-    space.iterations = model.iterations
-    space.collision_slop = 1e-4
+    scene, surfaces, closed = model.scene, model.surfaces, model.measures.min_opening
+    space = ChipmunkSpace(model.iterations, SLOP)
     walls = _add_walls(space, scene, surfaces)
-    spilled = {scene.ids[row]: state.poses[row] for row in np.flatnonzero(~state.on_board)}
-    items = {
-        item.id: _add_item(space, scene, item, state.poses[row], surfaces)
-        for row, item in enumerate(scene.objects)
-        if item.id not in spilled
-    }
-    arm = _add_arm(space, shape, surfaces, model.arm_mass)
-    toppled = frozenset(name for name, c in zip(scene.ids, state.conditions, strict=True) if c is Condition.TOPPLED)
-    closed, names = shape.min_opening, _names(walls, items, arm)
+    found = zip(scene.objects, state.poses.tolist(), state.conditions, strict=True)
+    items, spilled, toppled = {}, {}, set()
+    for item, pose, condition in found:
+        if condition is Condition.SPILLED:
+            spilled[item.id] = pose
+        else:
+            items[item.id] = _add_item(space, scene, item, pose, surfaces)
+        if condition is Condition.TOPPLED:
+            toppled.add(item.id)
+    arm = _add_arm(space, model)
+    names = {**walls, **{item.shape: name for name, item in items.items()}, **arm.names}
     world = ShelfSpace(
-        scene, space, items, arm, spilled, toppled, names, model.measures, opening=closed, command=closed
+        scene, space, items, arm, spilled, toppled, names, model.measures, surfaces.standing, closed, closed
     )
     for kind in (OBJECT, WALL):
-        space.on_collision(ARM, kind, begin=note_contact, data=world)
+        space.on_touch(ARM, kind, world.begun)
     return world
 
 
-def _names(walls: dict[pymunk.Shape, str], items: dict[str, ShelfItem], arm: DrivenArm) -> dict[pymunk.Shape, str]:
-    objects = {item.shape: name for name, item in items.items()}
-    return {**walls, **objects, **{shape: outline.part for shape, outline in arm.parts}}
-
-
-def note_contact(arbiter: pymunk.Arbiter, _: pymunk.Space, world: ShelfSpace) -> None:
-    """Write down that the arm touches something; the arm's shape comes first."""
-    part, other = arbiter.shapes
-    world.touched.append((world.tick, world.names[part], world.names[other], other.collision_type == WALL))
+def note_contact(world: ShelfSpace, part: Handle, other: Handle) -> None:
+    """Write down that a part of the arm touches something."""
+    world.touched.append((world.tick, world.names[part], world.names[other], kind_of(other) == WALL))
 
 
 def overlap(world: ShelfSpace) -> float:
-    """How deep the arm is in whatever it touches (m): pymunk lets bodies overlap where they press on each other."""
-    depths = [0.0]
-    world.arm.body.each_arbiter(_note_depth, depths)
-    return max(depths)
+    """How deep the arm is in whatever it touches (m): bodies overlap where they press on each other."""
+    return max((depth for _, _, depth in contacts(world.arm.body)), default=0.0)
 
 
-def _note_depth(arbiter: pymunk.Arbiter, depths: list[float]) -> None:
-    depths.extend(-point.distance for point in arbiter.contact_point_set.points)
-
-
-def _add_walls(space: pymunk.Space, scene: Scene, surfaces: PymunkSurfaces) -> dict[pymunk.Shape, str]:
+def _add_walls(space: ChipmunkSpace, scene: Scene, surfaces: PymunkSurfaces) -> dict[Handle, str]:
     depth, width, t = scene.shelf.depth, scene.shelf.width, WALL_THICKNESS
     corners = {
         "south wall": (0.0, -t, depth, 0.0),
         "north wall": (0.0, width, depth, width + t),
         "back wall": (depth, -t, depth + t, width + t),
     }
-    walls: dict[pymunk.Shape, str] = {}
+    friction = surfaces.partner_factor(scene.shelf.wall_friction)
+    walls: dict[Handle, str] = {}
     for name, (x0, y0, x1, y1) in corners.items():
-        wall = pymunk.Poly(space.static_body, [(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
-        wall.friction = surfaces.partner_factor(scene.shelf.wall_friction)
-        wall.collision_type = WALL
-        space.add(wall)
-        walls[wall] = name
+        wall = polygon(space.board, [(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+        walls[space.add_shape(wall, friction, WALL)] = name
     return walls
 
 
 def _add_item(
-    space: pymunk.Space, scene: Scene, item: SceneObject, pose: FloatArray, surfaces: PymunkSurfaces
+    space: ChipmunkSpace, scene: Scene, item: SceneObject, pose: list[float], surfaces: PymunkSurfaces
 ) -> ShelfItem:
-    body = pymunk.Body(item.mass, 1.0)
     friction = coulomb_with_board(scene, item) * item.mass * GRAVITY
-    foot = footprint(body, item.shape, item.mass, friction)
-    body.moment = foot.inertia
-    body.position = float(pose[0]), float(pose[1])
-    body.angle = yaw_of(pose)
-    foot.primitive.friction = surfaces.object_factor
-    foot.primitive.collision_type = OBJECT
-    floor = _floor(space, body, friction, foot, surfaces.standing)
-    space.add(body, foot.primitive, *floor)
-    return ShelfItem(item, body, foot.primitive, floor, friction)
+    foot = footprint(space, item.shape, item.mass, friction)
+    foot.body.position, foot.body.angle = (pose[0], pose[1]), yaw_of(pose)
+    space.add_shape(foot.primitive, surfaces.object_factor, OBJECT)
+    return ShelfItem(item, item.id, item.radius, foot.body, foot, friction)
 
 
-def _floor(
-    space: pymunk.Space, body: pymunk.Body, friction: float, foot: Footprint, standing: float | None
-) -> tuple[pymunk.Constraint, ...]:
-    """Coulomb friction (N) with the board, in joints whose bias is off: they resist motion and never push back.
+def lay_floor(world: ShelfSpace, item: ShelfItem) -> None:
+    """Let an object feel its friction with the board, if it does not yet."""
+    if not item.floor:
+        item.floor = _floor(world.space, item, world.standing)
+
+
+def _floor(space: ChipmunkSpace, item: ShelfItem, standing: float | None) -> tuple[Handle, ...]:
+    """Coulomb friction with the board, in joints whose bias is off: they resist motion and never push back.
 
     The limit surface, the forces and torques at which an object begins to slide (Goyal, Ruina and Papadopoulos, 1991), is
     a box where sliding and turning are two joints that know nothing of one another, and nearly the true one where the
     object stands on points around its edge: what slides already is turned by little.
     """
+    board, body, friction = space.board, item.body, item.friction
     if standing is None:
-        slide = pymunk.PivotJoint(space.static_body, body, (0.0, 0.0), (0.0, 0.0))
-        spin = pymunk.GearJoint(space.static_body, body, 0.0, 1.0)
-        return _limited(slide, friction), _limited(spin, foot.spin_limit)
-    angles = [math.tau * point / FEET for point in range(FEET)]
-    distance = foot.edge * standing
-    points = [(distance * math.cos(angle), distance * math.sin(angle)) for angle in angles]
-    return tuple(_limited(pymunk.PivotJoint(space.static_body, body, (0.0, 0.0), at), friction / FEET) for at in points)
+        slide, spin = space.pivot(board, body, CENTER, CENTER), space.gear(board, body, 0.0)
+        return limit(slide, friction), limit(spin, item.foot.spin_limit)
+    distance = item.foot.edge * standing
+    points = [(distance * math.cos(angle), distance * math.sin(angle)) for angle in FOOT_ANGLES]
+    return tuple(limit(space.pivot(board, body, CENTER, at), friction / FEET) for at in points)
 
 
-def _limited(joint: pymunk.Constraint, force: float) -> pymunk.Constraint:
-    joint.max_bias = 0.0
-    joint.max_force = force
-    return joint
-
-
-def _trimmed(vertices: FloatArray) -> tuple[tuple[float, float], ...]:
+def trimmed(vertices: FloatArray) -> tuple[Point, ...]:
     """An outline, a trifle smaller: a centre exactly in line with an edge, where planners aim, Chipmunk takes for inside."""
     middle = (vertices.max(axis=0) + vertices.min(axis=0)) / 2.0
     return tuple((x, y) for x, y in (vertices - TRIM * np.sign(vertices - middle)).tolist())
 
 
-def _add_arm(space: pymunk.Space, shape: ArmShape, surfaces: PymunkSurfaces, mass: float) -> DrivenArm:
-    body = pymunk.Body(mass, mass)
-    carrier = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
-    drive = pymunk.PivotJoint(carrier, body, (0.0, 0.0), (0.0, 0.0))
-    align = pymunk.GearJoint(carrier, body, 0.0, 1.0)
-    space.add(body, carrier, drive, align)
-    parts, fingers = [], []
-    for outline in shape.closed:
-        corners = _trimmed(outline.vertices)
-        polygon = pymunk.Poly(body, corners)
-        polygon.friction = surfaces.partner_factor(surfaces.arm)
-        polygon.collision_type = ARM
-        polygon.filter = pymunk.ShapeFilter(group=1)
-        space.add(polygon)
-        parts.append((polygon, outline))
+def _add_arm(space: ChipmunkSpace, model: PymunkModel) -> DrivenArm:
+    body, carrier = space.body(model.arm_mass, model.arm_mass), space.kinematic()
+    drive = space.pivot(carrier, body, CENTER, CENTER)
+    space.gear(carrier, body, 0.0)
+    friction = model.surfaces.partner_factor(model.surfaces.arm)
+    names, fingers = {}, []
+    for outline, corners in zip(model.shape.closed, model.outlines, strict=True):
+        part = space.add_shape(polygon(body, corners), friction, ARM, ARM_GROUP)
+        names[part] = outline.part
         if outline.side:
             depths = [x for x, _ in corners]
-            fingers.append(MovingFinger(polygon, outline.side, corners, min(depths), max(depths)))
-    return DrivenArm(body, carrier, drive, tuple(parts), tuple(fingers))
+            fingers.append(MovingFinger(part, outline.side, corners, min(depths), max(depths)))
+    return DrivenArm(body, carrier, drive, names, tuple(fingers))

@@ -21,7 +21,7 @@ from phframe.core import PhframeError
 from phframe.core.files import write_file
 from phframe.runtime.scenes import scene_names
 
-WHAT = "suites: solve the published scenes; calibrate: fit pymunk to MuJoCo"
+WHAT = "suites: solve the published scenes; calibrate: fit a planar backend to MuJoCo"
 PUBLISHED = ("vieira", "papallas")
 
 
@@ -37,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def _measure(given: argparse.Namespace, console: Console) -> None:
     scenes = [name for name in scene_names() if name.startswith(PUBLISHED)]
     if given.what == "calibrate":
-        figures = fit_in_space(console, given.scenes, scenes)
+        figures = fit_in_space(console, given.scenes, scenes, given.backend)
     elif given.what == "suites":
         figures = {"suites": _suites(console, given, scenes)}
     else:
@@ -56,7 +56,7 @@ def command_line() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m phframe.bench.meters", description="Measure phframe.")
     parser.add_argument("what", nargs="?", choices=["all", "suites", "calibrate"], default="all", help=WHAT)
     parser.add_argument("--planners", nargs="+", default=["phia", "ooa"], help="planners to run on the suites")
-    parser.add_argument("--backend", default="pymunk", help="in which plans are carried out")
+    parser.add_argument("--backend", default="pymunk", help="in which plans are carried out, or that is fitted")
     parser.add_argument("--arm", default="planar", help="that carries them out")
     parser.add_argument("--scenes", type=int, default=40, help="random scenes to fit to, and as many to judge by")
     parser.add_argument(

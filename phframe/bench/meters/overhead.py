@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import pymunk
 
+from phframe.backends.pymunk_ import chipmunk
 from phframe.backends.pymunk_.gripper import place_arm
 from phframe.backends.pymunk_.physics import PymunkPhysics
-from phframe.backends.pymunk_.world import ShelfSpace, build_world
+from phframe.backends.pymunk_.world import ShelfSpace, build_world, lay_floor
 from phframe.bench.meters.tasks import retrieval_task
 from phframe.core import Action, State, Stop, Transition, Watch
 from phframe.registry import Kind, create
@@ -82,22 +82,22 @@ class _NotingWorld(PlanningWorld):
 
 
 def _time_steps(work: Callable[[], object]) -> tuple[int, float]:
-    """How often pymunk is stepped, and how long that takes (s), the clock's own cost taken off."""
-    clock, step = time.perf_counter, pymunk.Space.step
+    """How often Chipmunk is stepped, and how long that takes (s), the clock's own cost taken off."""
+    clock, step = time.perf_counter, chipmunk.step
     count, seconds = 0, 0.0
 
-    def timed(space: pymunk.Space, dt: float) -> None:
+    def timed(space: chipmunk.Handle, dt: float) -> None:
         nonlocal count, seconds
         began = clock()
         step(space, dt)
         seconds += clock() - began
         count += 1
 
-    pymunk.Space.step = timed  # type: ignore[method-assign, assignment]
+    chipmunk.step = timed
     try:
         work()
     finally:
-        pymunk.Space.step = step  # type: ignore[method-assign]
+        chipmunk.step = step
     return count, seconds - count * _clock_cost()
 
 
@@ -111,14 +111,16 @@ def _clock_cost() -> float:
 
 
 def _bare(world: PlanningWorld, applied: Sequence[tuple[State, Action]]) -> tuple[float, int]:
-    """Seconds and steps of a loop that does nothing but step; building the spaces is not counted."""
+    """Seconds and steps of a loop that does nothing but step, every object with its friction; building is not counted."""
     physics: PymunkPhysics = world.physics  # type: ignore[assignment]
     seconds, steps, step = 0.0, 0, physics.options.step
     for state, action in applied:
         built = build_world(physics.model, state)
         legs = _legs(world, state, action, step)
-        place_arm(built, action.path.poses[0])
-        built.arm.drive.max_force = world.arm.force_limit
+        place_arm(built, action.path.poses[0].tolist())
+        chipmunk.set_max_force(built.arm.drive, world.arm.force_limit)
+        for item in built.items.values():
+            lay_floor(built, item)
         seconds += _loop(built, legs, step)
         steps += sum(count for _, count in legs)
     return seconds, steps

@@ -10,11 +10,11 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from phframe.bench.meters.calibrate import BEFORE, Calibration, calibrate
+from phframe.bench.meters.calibrate import REFERENCE, TUNINGS, Calibration, calibrate
 from phframe.bench.meters.motion_planning import ARM, MotionPlanning, measure_motion_planning
 from phframe.bench.meters.simulation import BARE, BARS, Simulation, measure_simulation
 from phframe.bench.meters.sweeps import Prediction, compare, outcomes, planned_sweeps, score
-from phframe.core import NotInstalledError, motion_planner_of
+from phframe.core import NotInstalledError, OptionError, motion_planner_of
 from phframe.registry import Kind, create, load
 from phframe.runtime.run import PLAN_OPTIONS
 from phframe.runtime.scenes import find_scene
@@ -116,31 +116,37 @@ def _add_prediction(table: Table, predictions: Sequence[Prediction]) -> None:
     table.add_row("the same objects in the corridor then", f"{found.same_corridor} of {found.sweeps}", "", f"{least}")
 
 
-def fit_in_space(console: Console, scenes: int, published: Sequence[str]) -> dict[str, Any]:
-    """Fit pymunk to MuJoCo and print what came of it.
+def fit_in_space(console: Console, scenes: int, published: Sequence[str], backend: str = REFERENCE) -> dict[str, Any]:
+    """Fit a planar backend to MuJoCo and print what came of it.
 
     Raises:
-        NotInstalledError: If MuJoCo is not installed.
+        NotInstalledError: If MuJoCo or the backend is not installed.
+        OptionError: If nothing is known to fit of that backend.
     """
-    load(Kind.BACKEND, ENGINE)
+    for needed in (ENGINE, backend):
+        load(Kind.BACKEND, needed)
+    if backend not in TUNINGS:
+        raise OptionError(f"backend {backend!r} has nothing to fit to {ENGINE}; these have: {', '.join(TUNINGS)}")
     with console.status("fitting") as status:
-        found = calibrate(scenes, published, status.update)
+        found = calibrate(scenes, published, status.update, backend)
     _print_calibration(console, found)
     return found.as_json()
 
 
 def _print_calibration(console: Console, found: Calibration) -> None:
-    values = Table("option", "default", "fitted", "shipped", title="pymunk, fitted to MuJoCo")
-    for name, before in BEFORE.items():
+    values = Table("option", "default", "fitted", "shipped", title=f"{found.backend}, fitted to MuJoCo")
+    for name, before in TUNINGS[found.backend].before.items():
         values.add_row(name, _text(before), _text(found.fitted[name]), _text(found.shipped[name]))
     console.print(values)
     columns = ("sweeps", "with", "sweeps", "objects", "median mm", "mean mm", "worst mm", "same corridor")
     table = Table(*columns, title="Error of the prediction")
     for judged in found.judged:
-        for name in ("before", "fitted", "shipped"):
+        beside = () if found.backend == REFERENCE else ("beside",)
+        for name in ("before", "fitted", "shipped", *beside):
             s = getattr(judged, name)
             lengths = (f"{length * 1e3:.1f}" for length in (s.median, s.mean, s.worst))
-            table.add_row(judged.sweeps, name, f"{s.sweeps}", f"{s.objects}", *lengths, f"{s.same_corridor}")
+            named = f"{REFERENCE}, shipped" if name == "beside" else name
+            table.add_row(judged.sweeps, named, f"{s.sweeps}", f"{s.objects}", *lengths, f"{s.same_corridor}")
     console.print(table)
 
 

@@ -9,6 +9,7 @@ from phframe.testing.check import Check, Report, run_checks
 from phframe.testing.physics.board import BOARD_CHECKS
 from phframe.testing.physics.forces import FORCE_CHECKS
 from phframe.testing.physics.grasps import GRASP_CHECKS
+from phframe.testing.physics.many import MANY_CHECKS
 from phframe.testing.physics.motions import MOTION_CHECKS
 from phframe.testing.physics.propagation import PROPAGATION_CHECKS
 from phframe.testing.physics.purity import PURITY_CHECKS
@@ -26,6 +27,7 @@ PHYSICS_CHECKS: tuple[Check[PhysicsUnderTest], ...] = (
     *FORCE_CHECKS,
     *GRASP_CHECKS,
     *PROPAGATION_CHECKS,
+    *MANY_CHECKS,
 )
 
 

@@ -11,9 +11,10 @@ import pytest
 
 import phframe
 from phframe.bench.meters import __main__ as bench
-from phframe.bench.meters.calibrate import BEFORE, GAIN, GRID, Observed, Values, fit
+from phframe.bench.meters.calibrate import BEFORE, GAIN, GRID, TUNINGS, Observed, Values, fit
 from phframe.bench.meters.simulation import Simulation, measure_simulation
 from phframe.bench.meters.sweeps import Prediction, Score, compare, outcomes, planned_sweeps, score
+from phframe.registry import Kind, load
 from phframe.runtime.run import PLAN_OPTIONS
 from phframe.runtime.scenes import scene_names
 from tests.markdown import table
@@ -63,6 +64,27 @@ def test_what_is_shipped_is_documented() -> None:
     assert set(rows) == set(GRID)
     for name, value in FITTED.items():
         assert rows[name] == ("none" if value is None else f"{value:.3g}")
+
+
+@pytest.mark.needs_fast
+def test_what_is_shipped_of_the_compiled_engine_is_documented() -> None:
+    pytest.importorskip("numba")
+    tuning = TUNINGS["fast"]
+    options = load(Kind.BACKEND, "fast").options_type().model_dump()
+    rows = {row[0]: row[2:] for row in table("docs/fidelity.md", "The compiled engine")}
+    assert set(rows) == set(tuning.grid)
+    for name, before in tuning.before.items():
+        assert options[name] == before
+        told = ["none" if value is None else f"{value:.3g}" for value in (before, tuning.shipped[name])]
+        assert rows[name] == told
+
+
+@pytest.mark.needs_mujoco
+def test_what_has_nothing_to_fit_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("mujoco")
+    with pytest.raises(SystemExit):
+        bench.main(["calibrate", "--backend", "mujoco"])
+    assert "'mujoco' has nothing to fit to mujoco; these have: pymunk, fast" in capsys.readouterr().err
 
 
 def test_a_ratio_is_of_the_backend_over_the_bare_loop() -> None:

@@ -1,0 +1,1 @@
+"""Physics in the plane, compiled by numba: the engine to plan in."""
