@@ -73,14 +73,19 @@ class StraightReach:
         kinematics: Kinematics,
         options: ArticulatedOptions,
     ) -> None:
-        self._arm, self._base_pose, self._kinematics = arm, base_pose, kinematics
-        self._spacing = options.cartesian_spacing
+        self._shape, self._kinematics, self._spacing = arm.shape, kinematics, options.cartesian_spacing
         surface = SurfacePoints(kinematics, robot, description.joints, arm.tip_link, base_pose, shelf.depth)
         self._objective = NullSpaceObjective(kinematics, surface, description.behind, shelf)
-        self._ik = DifferentialIK(kinematics, self._objective, np.empty((0, 4)))
-        self._collisions = CollisionModel(arm, description, shelf, (), base_pose, options.wall_margin, 0.0)
         self._seeds = [*(np.array(seed) for seed in description.seed_configurations), arm.home]
-        self._follower = cache(self._made_follower)
+        ik = DifferentialIK(kinematics, self._objective, np.empty((0, 4)))
+        collisions = CollisionModel(arm, description, shelf, (), base_pose, options.wall_margin, 0.0)
+
+        @cache  # over no method: what it keeps must not keep this object, or the engine's memory comes back late
+        def follower(opening: float) -> CartesianFollower:
+            checker = collisions.checker(CollisionContext(EMPTY, opening))
+            return CartesianFollower(ik, checker, base_pose, arm.shape.height, description.joints)
+
+        self._follower = follower
         self._view = cache(lambda opening: ArmView(shelf, arm.shape.outlines(opening), options.wall_margin))
 
     def yaws(self, place: Sequence[float], opening: float, stride: int = ROUGHLY) -> tuple[float, ...]:
@@ -141,8 +146,7 @@ class StraightReach:
             back: As for ``way``.
         """
         place = position[0] + PAST * math.cos(yaw), position[1] + PAST * math.sin(yaw)
-        shape = self._arm.shape
-        opening = min(max(2.0 * (radius + ROOM), shape.min_opening), shape.max_opening)
+        opening = min(max(2.0 * (radius + ROOM), self._shape.min_opening), self._shape.max_opening)
         return self.way(place, yaw, opening, stride, attempts, back=back)
 
     def out_of_reach(self, position: Sequence[float], radius: float) -> Unreachable | None:
@@ -184,8 +188,3 @@ class StraightReach:
 
     def _can_end(self, target: Any) -> bool:
         return any(self._kinematics.descend_to(target, seed) is not None for seed in self._seeds)
-
-    def _made_follower(self, opening: float) -> CartesianFollower:
-        checker = self._collisions.checker(CollisionContext(EMPTY, opening))
-        names = [joint.name for joint in self._arm.joints]
-        return CartesianFollower(self._ik, checker, self._base_pose, self._arm.shape.height, names)

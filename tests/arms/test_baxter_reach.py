@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import math
+import weakref
 
 import numpy as np
 import pytest
@@ -75,6 +77,18 @@ def test_the_right_arm_reaches_all_published_targets_from_a_lower_base() -> None
 
 
 @pytest.mark.slow
+def test_from_its_default_base_baxter_gets_at_all_published_targets_and_out_again() -> None:
+    arm = create(Kind.ARM, "baxter")
+    missed = []
+    for scene in map(find_scene, PUBLISHED):
+        item = scene.objects[scene.target_index]
+        reach = arm.straight_reach(scene.shelf, arm.default_base_pose(scene.shelf))
+        if not reach.grasp_yaws(item.position, item.radius, 1, back=True):
+            missed.append(scene.name)
+    assert missed == []
+
+
+@pytest.mark.slow
 def test_a_way_ends_at_its_place_and_goes_on_without_a_jump() -> None:
     scene = find_scene("papallas/s02")
     arm, base_pose = standing(scene, "right", up=-0.1)
@@ -83,6 +97,21 @@ def test_a_way_ends_at_its_place_and_goes_on_without_a_jump() -> None:
     np.testing.assert_allclose(arm.gripper_pose(way.joints[-1], base_pose), [0.45, 0.3, 0.0], atol=1e-5)
     assert float(np.abs(np.diff(way.joints, axis=0)).max()) < 0.2
     assert float(way.poses[0, 0]) < 0.0
+
+
+def test_a_reach_that_is_done_with_gives_its_memory_back_at_once() -> None:
+    """A map makes dozens, each with the collision geometry of a whole robot, which nobody collects in time."""
+    scene = find_scene("papallas/s02")
+    arm, base_pose = standing(scene, "right")
+    made = arm.straight_reach(scene.shelf, base_pose)
+    made.grasp((0.2, 0.3), 0.03, 0.0)
+    watched = weakref.ref(made)
+    gc.disable()
+    try:
+        del made
+        assert watched() is None
+    finally:
+        gc.enable()
 
 
 def test_nothing_is_reached_beside_a_wall_from_far_away() -> None:

@@ -273,8 +273,8 @@ HOME = (1.241881, 0.32302, -1.102181, 2.481017, 0.582613, -0.535103, 1.547004)
 joint has room."""
 MOUTH_AT: Vector = (0.675, 0.35, 0.2)
 """Middle of the shelf's mouth at the board, in the base; for the right arm y is negative. From maps of either arm at bases
-5 and 10 cm aside, lower and farther away: with this one the right arm gets at all of the 31 published targets, and its
-gripper out again from 97 % of the shelf. Lower, the arm has to fold too much before the mouth; nearer, too; farther, the deep
+5 and 10 cm aside, lower and farther away: with this one the right arm gets at all of the 31 published targets and out
+again. Lower, the arm has to fold too much before the mouth; nearer, too; farther, the deep
 corners are lost."""
 GRIPPER_HEIGHT = 0.10
 """Of the gripper plane above the board: the forearm's barrel is 0.086 m from its axis."""
