@@ -26,7 +26,7 @@ PICTURES = {
     "dense-scene.png": ("phframe scenes dense/9 --out {picture} --force",),
     "basic-in-mujoco.webp": (f"{SOLVE} --backend mujoco --no-rerun --out {{scratch}}/run --video {{picture}}",),
     "baxter.webp": (
-        "phframe solve papallas/s02 --backend mujoco --arm baxter --no-rerun --out {scratch}/run --video {picture}",
+        "phframe solve papallas/s08 --planner sure --backend mujoco --arm baxter --no-rerun --out {scratch}/run --video {picture}",
     ),
     **dict.fromkeys(FIGURES, ("python docs/experiment_picture.py {picture}",)),
 }
