@@ -157,7 +157,7 @@ from phframe.arms.planar import PlanarArm
 from phframe.motion.reachability import reachability
 
 class Serving(PlanarArm):
-    def fraction_served(self, shelf, base_pose):
+    def fraction_served(self, shelf, base_pose, enough=1.0):
         return reachability(shelf, self, base_pose).fraction
 """
 

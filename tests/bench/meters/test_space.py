@@ -147,7 +147,8 @@ def test_the_fit_leaves_its_figures(
 ) -> None:
     pytest.importorskip("mujoco")
     monkeypatch.setattr(bench, "scene_names", lambda: SCENES)
-    monkeypatch.setattr("phframe.bench.meters.calibrate.GRID", {"standing_radius": (None, 2 / 3)})
+    coarse = replace(TUNINGS["pymunk"], grid={"standing_radius": (None, 2 / 3)})
+    monkeypatch.setitem(TUNINGS, "pymunk", coarse)
     bench.main(["calibrate", "--scenes", "4", "--out", str(tmp_path / "fit.json")])
     figures = json.loads((tmp_path / "fit.json").read_text())
     assert [judged["sweeps"] for judged in figures["judged"]] == ["fitted to", "held back", "first, published"]
