@@ -62,7 +62,11 @@ def world() -> Iterator[ExecutionWorld]:
 
 @pytest.mark.parametrize(
     ("what", "said"),
-    [("position", "'right_w1'.*limits are"), ("speed", "'right_w1' at .*limit is 4"), ("jump", "from where the arm is")],
+    [
+        ("position", "'right_w1'.*limits are"),
+        ("speed", "'right_w1' at .*limit is 4"),
+        ("jump", "from where the arm is"),
+    ],
 )
 def test_a_trajectory_beyond_the_arm_is_refused_before_anything_moves(
     world: ExecutionWorld, episode: Episode, what: str, said: str
