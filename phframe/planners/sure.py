@@ -194,7 +194,7 @@ class _LazySearch:
 
     def _hopeless(self, node: int, found: list[Drive]) -> str:
         """Why nothing more is to be pushed at a node, by the options ``max_actions`` and ``patience``; empty: go on."""
-        self._least[node] = min(drive.blocking for drive in found)
+        self._least[node] = min((drive.blocking for drive in found), default=0)
         path = [ROOT, *self._tree.rows(node)]
         if len(path) > self._options.max_actions:
             return f"no grasp is clean after {len(path) - 1} actions"

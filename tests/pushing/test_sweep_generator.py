@@ -246,7 +246,7 @@ def test_all_that_clear_are_the_clearing_ones_of_every_way(case: Case) -> None:
 def test_the_clearance_is_the_least_distance_from_walls_and_target(case: Case) -> None:
     target = np.array([case.target])
     for push in case.pushes:
-        poses = fingertip_poses(case, push, 15)
+        poses = fingertip_poses(case, push, 31)
         walls = min(gap_to_walls(ARM.closed, pose, case.shelf) for pose in poses)
         beside = min(float(gaps_to_points(ARM.closed, pose, target)[0]) for pose in poses) - RADIUS
         clearance = case.geometry.clearance(push)
