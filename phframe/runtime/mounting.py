@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from phframe.core import ArmModel, BasePose, RunSpec, Scene
-from phframe.registry import Kind, create, identify
+from phframe.registry import Kind, create, identify, refuse_stored_code
 from phframe.runtime.scenes import find_scene
 
 Told = Callable[[int, int], None]
@@ -46,7 +46,8 @@ def mounted(spec: RunSpec, told: Told = lambda done, of: None) -> RunSpec:
 def _chosen(spec: RunSpec, part: str, told: Told) -> tuple[Any, dict[str, Any]] | None:
     """An arm and its options, once they are chosen; None: they are as they were given."""
     arm, given = getattr(spec, part), spec.options.get(part, {})
-    if arm is None:
+    refuse_stored_code(part, arm)
+    if arm is None or (isinstance(arm, str | type) and "mount" not in given):
         return None
     before: ArmModel[Any] = create(Kind.ARM, arm, given)
     after = before.mounted(find_scene(spec.scene, spec.options.get("scenes")), told)
