@@ -18,6 +18,7 @@ LEFT_OUT = (
     "make ",  # what tests are run by
     "python -m pip ",  # changes the environment
     "python -m phframe.bench.meters calibrate",  # three minutes
+    "python -m phframe.bench.meters ensemble",  # the same
     "phframe report runs/paper",  # of a bench that is only listed here
 )
 """Beginnings of the commands that are not run, and why."""
