@@ -60,7 +60,7 @@ class Certainty:
 
     @property
     def share(self) -> float | None:
-        """Share of the samples in which it was clean; None: there were none."""
+        """Fraction of the samples in which it was clean; None: there were none."""
         return self.clean / self.samples if self.samples else None
 
 

@@ -98,6 +98,12 @@ class State(Value):
         """
         return replace(self, arm=None)
 
+    def for_another_arm(self) -> State:
+        """The same world as another arm or backend can take it up: the gripper where it is if it holds something, else parked."""
+        if self.held is None or self.arm is None:
+            return self.parked()
+        return replace(self, arm=replace(self.arm, joints=None))
+
     def displacement(self, other: State) -> FloatArray:
         """Distance ``(n,)`` (m) by which each object's centre differs; infinite where its condition does."""
         distance = np.linalg.norm(self.poses[:, :3] - other.poses[:, :3], axis=1)

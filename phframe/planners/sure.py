@@ -13,6 +13,7 @@ from pydantic import Field
 
 from phframe.core import (
     ROOT,
+    Action,
     Infeasible,
     Motion,
     Plan,
@@ -24,7 +25,6 @@ from phframe.core import (
     Transition,
 )
 from phframe.pushing import (
-    MOVED_TARGET,
     WIDE_FAN,
     Confirmed,
     Deviation,
@@ -41,6 +41,7 @@ from phframe.pushing import (
     Rehearsals,
     closest_groups,
     cut_short,
+    displacement_allowed,
     drives,
     harm,
     is_unchanged,
@@ -75,7 +76,7 @@ class SureOptions(PushingOptions):
         confirm: Whether a plan is simulated in the engine that executes it, if that is another one, before the arm moves;
             one that does not come true there is a dead end.
         particles: Samples of the world in which a plan is rehearsed where noise is declared; 0: none.
-        certain: Share of the samples in which a plan must be clean to be carried out at once.
+        certain: Fraction of the samples in which a plan must be clean to be carried out at once.
         rehearsals: Plans that are rehearsed at most: then the surest of them is carried out.
         max_nodes: Nodes of the search tree after which to give up.
     """
@@ -283,7 +284,7 @@ class _LazySearch:
         before = self._search.state(parent)
         made = self._known.of(before, action) or self._task.apply(before, action)
         node = self._tree.child(parent, action, made, decision)
-        if why := self._dead_end(before, made, candidate):
+        if why := self._dead_end(before, made, action):
             self._tree.close(node, why)
             shorter = cut_short(push, made, self._options) if made.motion.stalled else None
             if shorter is not None and self._task.rejects(shorter[1]) is None:
@@ -292,15 +293,14 @@ class _LazySearch:
         self._seen.add(_alike(made.state))
         return self._expand(node)
 
-    def _dead_end(self, before: State, made: Transition, candidate: _Candidate) -> str:
+    def _dead_end(self, before: State, made: Transition, action: Action) -> str:
         """Why not to go on from a push; empty: go on."""
         if is_unchanged(before, made.state):
             return "nothing moved"
-        of_target = candidate.push is not None and self._pushing.scene.target in candidate.push[1].moves
-        if self._options.harmful == "dead-end":
-            why = harm(self._pushing.scene, before, made, None if of_target else MOVED_TARGET)
-            if why:
-                return why
+        scene = self._pushing.scene
+        allowed = displacement_allowed(scene, action)
+        if self._options.harmful == "dead-end" and (why := harm(scene, before, made, allowed)):
+            return why
         return "leads to a state that was reached before" if _alike(made.state) in self._seen else ""
 
     def _made(self, node: int) -> Transition:

@@ -13,7 +13,7 @@ from phframe.pushing.grasp import Grasp, GraspFinder, grasp_action
 from phframe.pushing.grouping import Rectangle, bounding_rectangle, closest_component
 from phframe.pushing.groups import Grouping, ObstacleGroup, Radii, closest_groups
 from phframe.pushing.grtc import GrtcDeviation, GrtcSearch, Obstruction, StraightPushDecision
-from phframe.pushing.harm import MOVED_TARGET, harm
+from phframe.pushing.harm import MOVED_TARGET, displacement_allowed, harm
 from phframe.pushing.known_transitions import KnownTransitions
 from phframe.pushing.options import ClearingOptions, PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
@@ -76,6 +76,7 @@ __all__ = [
     "corridor_at",
     "corridor_half_width",
     "cut_short",
+    "displacement_allowed",
     "drives",
     "find_corridor",
     "first_blocker",

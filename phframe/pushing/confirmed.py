@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from phframe.core import ROOT, Action, ActionKind, Decision, State, Task, Transition
-from phframe.pushing.harm import harm
+from phframe.pushing.harm import displacement_allowed, harm
+from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_search import PushSearch, is_unchanged
 
 
@@ -59,24 +60,17 @@ class Confirmed:
         """
         made = self._task.confirm(self._held[parent], action)
         why = self._harm(self._search.state(parent), action, made)
-        noted = replace(decision or Decision(), why=f"confirmed: {(decision or Decision()).why}")
-        seen = Transition(_for_planning(made.state), made.motion)
+        given = PushDecision.of(decision)
+        noted = replace(given, why=f"confirmed: {given.why}", confirmed=True)
+        seen = Transition(made.state.for_another_arm(), made.motion)
         node = self._tree.child(parent, action, seen, noted, closed=why)
         self._held[node] = made.state
         return node, why
 
     def _harm(self, before: State, action: Action, made: Transition) -> str:
         scene = self._search.pushing.scene
-        if action.kind is ActionKind.GRASP:
-            assessed = self._search.assess(action, made)
-            return assessed.reason or ("" if self._harmful else harm(scene, before, made, None))
-        pushes_target = scene.target in action.moves
-        why = "" if self._harmful else harm(scene, before, made, *((None,) if pushes_target else ()))
-        return why or ("nothing moved" if is_unchanged(before, made.state) else "")
-
-
-def _for_planning(state: State) -> State:
-    """A state as any arm and engine can take it up: with the gripper where it is if it holds something, else parked."""
-    if state.held is None or state.arm is None:
-        return state.parked()
-    return replace(state, arm=replace(state.arm, joints=None))
+        if action.kind is ActionKind.GRASP and (short := self._search.assess(action, made).reason):
+            return short
+        if not self._harmful and (why := harm(scene, before, made, displacement_allowed(scene, action))):
+            return why
+        return "nothing moved" if is_unchanged(before, made.state) else ""

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from phframe.core import Condition, Scene, State, Transition
+from phframe.core import Action, Condition, Scene, State, Transition
 
 MOVED_TARGET = 0.02
 """How far a push may displace the target (m)."""
+
+
+def displacement_allowed(scene: Scene, action: Action) -> float | None:
+    """How far an action may displace the target (m); None: any distance, since it means to move it."""
+    return None if scene.target in action.moves else MOVED_TARGET
 
 
 def harm(scene: Scene, before: State, made: Transition, moved_target: float | None = MOVED_TARGET) -> str:

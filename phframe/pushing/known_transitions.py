@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from phframe.core import Action, ActionKind, ExploredTree, State, Transition
 from phframe.pushing.push_decision import PushDecision
 from phframe.pushing.push_search import Proposal
 
-Key = tuple[bytes, tuple[str, ...], bytes]
+Key = tuple[bytes, tuple[str, ...], str | None, bytes, bytes]
 
 
 class KnownTransitions:
     """The transitions of a search tree. ``apply`` is pure, so one from the very same state need not be simulated again.
+
+    What the engine that executes made of a state (see ``Confirmed``) is left out: ``apply`` is of another.
 
     Args:
         earlier: The tree, from where the world was expected to be now; None: nothing is known.
@@ -23,6 +27,8 @@ class KnownTransitions:
         if earlier is None:
             return
         for node in earlier.nodes[1:]:
+            if PushDecision.of(node.decision).confirmed:
+                continue
             if node.action is not None and node.motion is not None and node.parent is not None:
                 key = _key(earlier.nodes[node.parent].state, node.action)
                 self._made.setdefault(key, Transition(node.state, node.motion))
@@ -36,4 +42,6 @@ class KnownTransitions:
 
 
 def _key(state: State, action: Action) -> Key:
-    return state.poses.tobytes(), tuple(state.conditions), action.path.poses.tobytes()
+    """What decides what an action does: objects, what is held, the gripper, and the path."""
+    arm = b"" if state.arm is None else state.arm.gripper.tobytes() + np.float64(state.arm.commanded_opening).tobytes()
+    return state.poses.tobytes(), tuple(state.conditions), state.held, arm, action.path.poses.tobytes()

@@ -27,6 +27,7 @@ class PushDecision(Decision):
         chosen: Ids of the members of the component chosen.
         rectangle: Around the chosen.
         sweep: The push.
+        confirmed: Whether what came of it was simulated by the engine that executes, not by the one that plans are made in.
     """
 
     kind: ClassVar[str] = "push"
@@ -40,6 +41,7 @@ class PushDecision(Decision):
     chosen: tuple[str, ...] = ()
     rectangle: Rectangle | None = None
     sweep: Sweep | None = None
+    confirmed: bool = False
 
     def __post_init__(self) -> None:
         if self.labels is not None:

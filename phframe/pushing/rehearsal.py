@@ -17,7 +17,7 @@ class Rehearsals:
         task: The task.
         search: The search.
         particles: Samples of the world in which a plan is rehearsed, where what is believed of it is uncertain.
-        certain: Share of them in which it must be clean to be sure.
+        certain: Fraction of them in which it must be clean to be sure.
         most: How many plans are rehearsed.
     """
 

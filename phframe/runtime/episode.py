@@ -166,7 +166,7 @@ class _Run:
         simulations = None if loop.simulations is None else max(0, loop.simulations - spent.simulated_actions)
         before = self._motion_planning_within
         confirmation, particles = self._aids.confirmation, self._aids.particles
-        start = self._seen if self._same_arm else _for_another_arm(self._seen)
+        start = self._seen if self._same_arm else self._seen.for_another_arm()
         task = self._planning.task(
             start,
             self._topology,
@@ -285,10 +285,3 @@ class _Run:
     def _tell(self, what: Callable[[Observer], None]) -> None:
         for observer in self._observers:
             what(observer)
-
-
-def _for_another_arm(state: State) -> State:
-    """A state as another arm or backend can take it up: with the gripper where it is if it holds something, else parked."""
-    if state.held is None or state.arm is None:
-        return state.parked()
-    return replace(state, arm=replace(state.arm, joints=None))

@@ -12,6 +12,7 @@ from phframe.core import (
     ROOT,
     Action,
     ActionKind,
+    ArmState,
     Condition,
     Contacts,
     Decision,
@@ -24,7 +25,7 @@ from phframe.core import (
     Transition,
 )
 from phframe.planners.sure import Sure, SureOptions
-from phframe.pushing import KnownTransitions
+from phframe.pushing import KnownTransitions, PushDecision
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.world import WorldSpec
 from tests.pushing.parts import often, scene_of
@@ -85,6 +86,21 @@ def test_a_state_of_other_poses_or_conditions_is_another() -> None:
     poses[1, 0] = np.nextafter(poses[1, 0], 1.0)
     assert known.of(replace(start, poses=poses), action(1)) is None
     assert known.of(replace(start, conditions=(Condition.UPRIGHT, Condition.TOPPLED)), action(1)) is None
+
+
+def test_what_another_engine_made_of_a_state_is_not_known() -> None:
+    tree = SearchTree(state(0))
+    tree.child(ROOT, action(1), Transition(state(1), Motion(1.0)), PushDecision(confirmed=True))
+    assert KnownTransitions(tree.explored(1)).of(state(0), action(1)) is None
+
+
+def test_a_state_whose_arm_stands_elsewhere_is_another() -> None:
+    standing = replace(state(0), arm=ArmState(np.array([-0.2, 0.3, 0.0]), 0.0))
+    tree = SearchTree(standing)
+    tree.child(ROOT, action(1), Transition(state(1), Motion(1.0)))
+    known = KnownTransitions(tree.explored(1))
+    assert known.of(standing, action(1)) is not None
+    assert known.of(state(0), action(1)) is None
 
 
 def test_a_grasp_is_not_still_to_be_done_but_known() -> None:
