@@ -1,99 +1,51 @@
-"""Sure: few harmless pushes and a clean grasp, each option as it says, and what is confirmed is what then happens."""
+"""Sure: few harmless pushes and a clean grasp, each option as it says, and a reason where there is no plan."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from phframe.core import (
     ROOT,
-    Action,
     ActionKind,
     Assessment,
     Attempt,
-    Budget,
     Condition,
-    Episode,
-    ExploredTree,
     Goal,
     Motion,
     Options,
     Plan,
     Scene,
-    SearchNode,
     State,
     Status,
-    Stop,
-    StopCause,
-    StopReason,
     Task,
     Transition,
-    Unreachable,
 )
 from phframe.core.particle import Apply
 from phframe.planners.sure import Sure, SureOptions
-from phframe.pushing import WIDE_FAN, Deviation, PushDecision, find_corridor, harm, is_cleared
+from phframe.pushing import WIDE_FAN, Deviation, PushDecision, find_corridor, is_cleared
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.solve import solve
 from phframe.runtime.world import WorldSpec
 from tests.planners.solved import episodes
-from tests.pushing.parts import rejections, scene_of
+from tests.planners.sure_plans import (
+    AT_WALL,
+    HARD,
+    ONE,
+    SOME,
+    assert_told,
+    grasps_of,
+    kinds,
+    planned,
+    pushes_of,
+    topples_first,
+    tree_of,
+)
+from tests.pushing.parts import scene_of
 from tests.pushing.worlds import bench, task_in
-from tests.runtime.worlds import Meddling, run, shifted
-
-ONE = scene_of((0.45, 0.3), (0.25, 0.3), (0.25, 0.365), (0.25, 0.235), (0.3, 0.17), (0.3, 0.43))
-"""What stands before the target leaves no way past it at any angle: one push is needed."""
-AT_WALL = tuple(scene_of((0.45, y)) for y in (0.032, 0.568))
-"""Alone, 2 mm from a side wall: no finger fits between."""
-ELSEWHERE = {"object_friction": 0.35, "arm_friction": 0.45, "standing_radius": 2.0 / 3.0, "arm_acceleration": 10.0}
-"""An engine that differs a little from the one that is planned in."""
-HARD = "random/1"
-
-
-class Counted:
-    """What applies actions, counting them by state and path.
-
-    Args:
-        apply: What does.
-    """
-
-    def __init__(self, apply: Apply) -> None:
-        self._apply = apply
-        self.asked: list[tuple[bytes, bytes]] = []
-
-    def __call__(self, state: State, action: Action, stop: Stop | None = None) -> Transition:
-        self.asked.append((state.poses.tobytes(), action.path.poses.tobytes()))
-        return self._apply(state, action, stop)
-
-
-def planned(scene: Scene, options: dict[str, Any] | None = None, start: State | None = None, **more: Any) -> Plan:
-    """A plan in pymunk."""
-    with PlanningWorld(WorldSpec(scene)) as world:
-        return Sure(SureOptions.parse(options or {}, "sure")).plan(task_in(world, start, **more))
-
-
-def tree_of(plan: Plan) -> ExploredTree:
-    assert plan.tree is not None
-    return plan.tree
-
-
-def pushes_of(plan: Plan) -> list[SearchNode]:
-    """All that were tried."""
-    return [node for node in tree_of(plan).nodes[1:] if node.action and node.action.kind is ActionKind.PUSH]
-
-
-def grasps_of(plan: Plan) -> list[SearchNode]:
-    return [node for node in tree_of(plan).nodes[1:] if node.action and node.action.kind is ActionKind.GRASP]
-
-
-def kinds(plan: Plan) -> list[ActionKind]:
-    return [action.kind for action in plan.actions]
-
 
 # --- On the published scenes ---
 
@@ -109,20 +61,6 @@ def test_few_actions_are_simulated() -> None:
     simulated = sorted(sum(plan.cost.simulated_actions for plan in each.plans) for each in episodes("sure"))
     assert simulated[len(simulated) // 2] <= 3
     assert simulated[-1] <= 20
-
-
-def assert_told(scene: Scene, plan: Plan) -> None:
-    """Every action of the path does no harm, and every node beside it says why it was left."""
-    tree = tree_of(plan)
-    before = tree.nodes[ROOT].state
-    for node in tree.path:
-        assert node.motion is not None
-        assert node.action is not None
-        moved = None if node.action.kind is ActionKind.GRASP or scene.target in node.action.moves else 0.02
-        assert not harm(scene, before, Transition(node.state, node.motion), moved)
-        before = node.state
-    for row, node in enumerate(tree.nodes):
-        assert bool(node.closed) is not (row == ROOT or node in tree.path)
 
 
 def test_the_path_is_harmless_and_all_else_says_why_it_was_left() -> None:
@@ -152,8 +90,6 @@ def test_the_same_inputs_give_the_same_bits() -> None:
 
 
 # --- Its options ---
-
-SOME = tuple(find_scene(name) for name in ("vieira/basic", "vieira/example-05", "papallas/s02", "papallas/s09"))
 
 
 def test_the_fan_of_the_paper_has_its_corridor_only() -> None:
@@ -279,15 +215,6 @@ def test_the_smallest_radius_is_phia_s() -> None:
     assert several
 
 
-def topples_first(made: Transition, action: Action) -> Transition:
-    """Every push topples what it means to move."""
-    if action.kind is not ActionKind.PUSH:
-        return made
-    fallen = list(made.state.conditions)
-    fallen[1] = Condition.TOPPLED
-    return replace(made, state=replace(made.state, conditions=tuple(fallen)))
-
-
 def harmful(scene: Scene, options: dict[str, Any], *, confirms: bool = False) -> Plan:
     """In a world where every push topples something; so it does in the one that executes, if there is another."""
     with PlanningWorld(WorldSpec(scene)) as world:
@@ -359,259 +286,3 @@ def test_a_target_that_lies_fails_at_once_and_says_so() -> None:
     plan = planned(ONE, start=lying)
     assert (plan.status, plan.reason) == (Status.FAILED, "the target 'target' is toppled")
     assert plan.cost.simulated_actions == 0
-
-
-# --- What the arm reaches ---
-
-
-class Reaching:
-    """An arm that can grasp at some angles only.
-
-    Args:
-        can: Whether it can, by the gripper's yaw.
-    """
-
-    def __init__(self, can: Callable[[float], bool]) -> None:
-        self._can = can
-        self.asked = 0
-
-    def __call__(self, state: State, action: Action) -> Unreachable | None:
-        self.asked += 1
-        yaw = float(action.path.poses[0, 2])
-        return None if self._can(yaw) else Unreachable(0.1, f"joint 4 at its limit, yaw {np.degrees(yaw):.0f}")
-
-
-@pytest.mark.parametrize("scene", [scene_of((0.45, 0.3)), ONE, SOME[0]], ids=["alone", "blocked", "basic"])
-def test_a_target_beyond_the_arm_is_given_up_after_a_dozen_questions(scene: Scene) -> None:
-    reach = Reaching(lambda yaw: False)
-    plan = planned(scene, reach=reach)
-    assert plan.status is Status.FAILED
-    assert "the arm cannot grasp the target at any angle, even in an empty shelf: joint 4 at its limit" in plan.reason
-    assert 1 <= reach.asked <= 12
-
-
-def test_the_same_where_the_arm_that_plans_is_the_one_that_executes() -> None:
-    """Then simulating a grasp tells that it is beyond the arm."""
-
-    def apply(state: State, action: Action, stop: Stop | None = None) -> Transition:
-        if action.kind is ActionKind.GRASP:
-            why = StopReason(StopCause.UNREACHABLE, unreachable=Unreachable(0.1, "joint 4 at its limit"))
-            return Transition(state, Motion(0.0, stopped=why))
-        return world.apply(state, action, stop)
-
-    reach = Reaching(lambda yaw: False)
-    with PlanningWorld(WorldSpec(ONE)) as world:
-        task = task_in(world, reach=reach)
-        task._apply = apply
-        plan = Sure(SureOptions()).plan(task)
-    assert plan.status is Status.FAILED
-    assert "the arm cannot grasp the target at any angle" in plan.reason
-    assert plan.cost.simulated_actions <= 12
-    assert reach.asked <= 12
-
-
-@pytest.mark.parametrize("side", [1, -1])
-def test_an_arm_that_reaches_some_angles_grasps_at_one_of_them(side: int) -> None:
-    reach = Reaching(lambda yaw: side * yaw > np.radians(20.0))
-    for scene in (scene_of((0.4, 0.3)), ONE):
-        plan = planned(scene, reach=reach)
-        assert plan.status is Status.RETRIEVED
-        assert side * plan.actions[-1].path.poses[0, 2] > np.radians(20.0)
-
-
-# --- What is confirmed ---
-
-
-def confirmed_in(scene: Scene, confirm: Apply, **options: Any) -> Plan:
-    return planned(scene, options, confirm=confirm)
-
-
-def test_what_does_not_come_true_is_a_dead_end_and_something_else_is_found() -> None:
-    first = planned(ONE)
-    assert kinds(first) == [ActionKind.PUSH, ActionKind.GRASP]
-
-    def confirm(state: State, action: Action, stop: Stop | None = None) -> Transition:
-        made = other.apply(state, action, stop)
-        return topples_first(made, action) if action.resembles(first.actions[0]) else made
-
-    with PlanningWorld(WorldSpec(ONE)) as other:
-        plan = confirmed_in(ONE, confirm)
-    assert plan.status is Status.RETRIEVED
-    assert not any(action.resembles(first.actions[0]) for action in plan.actions)
-    closed = [node for node in tree_of(plan).nodes if node.closed.startswith("when confirmed: ")]
-    assert [node.closed for node in closed] == ["when confirmed: o0 is toppled"]
-    assert_told(ONE, plan)
-
-
-def test_where_nothing_comes_true_it_says_so() -> None:
-    def stalls(state: State, _action: Action, _stop: Stop | None = None) -> Transition:
-        return Transition(state, Motion(1.0, stalled=True, largest_force=33.0))
-
-    plan = confirmed_in(ONE, stalls, max_nodes=60)
-    assert plan.status is Status.FAILED
-    assert "when confirmed: the arm stalls at 33 N" in {node.closed for node in tree_of(plan).nodes}
-
-
-def test_nothing_is_simulated_twice() -> None:
-    """From the same state, in the same engine: neither here nor there."""
-    for name in (HARD, "vieira/example-05", "papallas/s09", "papallas/s04"):
-        scene = find_scene(name)
-        with (
-            PlanningWorld(WorldSpec(scene)) as world,
-            PlanningWorld(WorldSpec(scene, backend_options=ELSEWHERE)) as other,
-        ):
-            here, there = Counted(world.apply), Counted(_grasps_fail_at_first(other.apply))
-            task = task_in(world, confirm=there)
-            task._apply = here
-            plan = Sure(SureOptions()).plan(task)
-        assert plan.status is Status.RETRIEVED
-        assert len(set(here.asked)) == len(here.asked)
-        assert len(set(there.asked)) == len(there.asked)
-
-
-def _grasps_fail_at_first(apply: Apply) -> Apply:
-    """The first three grasps come to nothing."""
-    failed: list[Action] = []
-
-    def confirm(state: State, action: Action, stop: Stop | None) -> Transition:
-        if action.kind is ActionKind.GRASP and len(failed) < 3:
-            failed.append(action)
-            return Transition(state, Motion(1.0, stalled=True, largest_force=31.0))
-        return apply(state, action, stop)
-
-    return confirm
-
-
-def test_the_plan_expects_what_the_engine_that_executes_makes_of_it() -> None:
-    scene = SOME[0]
-    with PlanningWorld(WorldSpec(scene, backend_options=ELSEWHERE)) as other:
-        plan = confirmed_in(scene, other.apply)
-        assert plan.status is Status.RETRIEVED
-        assert len(plan.actions) >= 2
-        state = scene.initial_state()
-        for action, expected in zip(plan.actions, plan.expected, strict=True):
-            state = other.apply(state, action).state
-            np.testing.assert_array_equal(state.poses, expected.poses)
-
-
-CONFIRMED = ("vieira/basic", "vieira/example-05", "papallas/s02", "papallas/s09")
-
-
-def elsewhere(name: str, **options: Any) -> Episode:
-    """Planned in pymunk as it is, executed in another."""
-    return solve(name, planner="sure", options={"plan_backend": ELSEWHERE, "planner": options})
-
-
-def apart(episode: Episode) -> list[float]:
-    """How far the pushes of an episode led from where they were expected to (m)."""
-    steps = [step for step in episode.steps if step.action.kind is ActionKind.PUSH and step.expected is not None]
-    return [float(step.after.displacement(step.expected).max()) for step in steps if step.expected is not None]
-
-
-def test_what_was_confirmed_is_what_happens() -> None:
-    found = [elsewhere(name) for name in CONFIRMED]
-    assert [(each.status, each.clean, len(each.plans)) for each in found] == [(Status.RETRIEVED, True, 1)] * len(found)
-    pushed = [distance for episode in found for distance in apart(episode)]
-    assert len(pushed) >= 2
-    assert max(pushed) <= 1e-6
-
-
-def test_without_confirmation_reality_differs() -> None:
-    assert max(distance for name in CONFIRMED for distance in apart(elsewhere(name, confirm=False))) > 1e-4
-
-
-# --- Again ---
-
-
-def test_a_plan_from_where_the_last_one_was_to_be_simulates_less() -> None:
-    scene = next(each.scene for each in episodes("sure") if each.pushes >= 2)
-    with PlanningWorld(WorldSpec(scene)) as world:
-        first = Sure(SureOptions()).plan(task_in(world))
-        for done in (0, 1):
-            start = first.expected[done - 1] if done else scene.initial_state()
-            again, anew = (
-                Sure(SureOptions()).plan(task_in(world, start, earlier=earlier))
-                for earlier in (tree_of(first).after(done), None)
-            )
-            assert again.actions == first.actions[done:]
-            assert again.cost.simulated_actions < anew.cost.simulated_actions
-            assert again.cost.simulated_actions < first.cost.simulated_actions
-
-
-class Noting(Sure):
-    """Notes what it is told of the plan before."""
-
-    def __init__(self) -> None:
-        super().__init__(SureOptions())
-        self.earlier: list[ExploredTree | None] = []
-
-    def search(self, task: Task) -> Plan:
-        self.earlier.append(task.earlier)
-        return super().search(task)
-
-
-def test_in_an_episode_a_replan_knows_what_the_plan_before_had_tried() -> None:
-    scene = next(each.scene for each in episodes("sure") if each.pushes >= 2)
-    planner, target = Noting(), scene.target
-    episode = run(Meddling(WorldSpec(scene), {1: shifted(target, (0.0, 0.012), scene)}), planner)
-    assert episode.status is Status.RETRIEVED
-    assert len(episode.plans) >= 2
-    first, (none, earlier, *_) = episode.plans[0], planner.earlier
-    assert none is None
-    assert earlier is not None
-    assert earlier.nodes[ROOT].state == first.expected[0]
-    assert [node.action for node in earlier.path] == list(first.actions[1:])
-
-
-def test_where_the_world_is_another_what_was_to_come_next_is_tried_first() -> None:
-    scene = next(each.scene for each in episodes("sure") if each.pushes >= 2)
-    first = planned(scene)
-    far = scene.ids.index(max(scene.ids))
-    moved = first.expected[0].poses.copy()
-    moved[far, 1] += 1e-4
-    start = replace(first.expected[0].parked(), poses=moved)
-    again = planned(scene, start=start, earlier=tree_of(first).after(1))
-    tried = pushes_of(again)[0].action
-    assert tried is not None
-    assert tried.path == first.actions[1].path
-
-
-def test_what_was_rejected_is_not_proposed_again() -> None:
-    for scene in (ONE, SOME[0]):
-        rejected: list[Action] = []
-        for _ in range(3):
-            plan = planned(scene, {"max_nodes": 40}, rejected=rejections(rejected))
-            tried = [node.action for node in tree_of(plan).nodes[1:] if node.action]
-            assert not any(each.resembles(action) for each in rejected for action in tried)
-            rejected.extend(plan.actions[:1])
-        assert len(rejected) == 3
-
-
-def test_not_even_cut_short() -> None:
-    """A push that stalls is cut short anew each time; what was rejected of that is left alone."""
-
-    def cut(plan: Plan) -> list[Action]:
-        found = [(node.action, PushDecision.of(node.decision).deviations) for node in tree_of(plan).nodes[1:]]
-        return [action for action, deviations in found if action and Deviation.CUT_SHORT in deviations]
-
-    scene = find_scene("papallas/s01")
-    options = {"max_nodes": 40, "grasp": "empty-corridor", "target_pushes": False}
-    for name in (scene.name, "random/0", "random/5", HARD):
-        scene = find_scene(name)
-        before = cut(planned(scene, options))
-        if before:
-            after = cut(planned(scene, options, rejected=rejections(before)))
-            assert not any(each.resembles(action) for each in before for action in after)
-            return
-    pytest.fail("nothing was cut short")
-
-
-def test_a_budget_of_simulations_decides_alone() -> None:
-    scene = find_scene("vieira/basic")
-    free = planned(scene)
-    assert free.cost.simulated_actions >= 2
-    for limit in range(free.cost.simulated_actions + 1):
-        slow, quick = (planned(scene, budget=Budget(seconds=seconds, simulations=limit)) for seconds in (1e4, 300.0))
-        assert slow == quick
-        assert slow.status is (Status.RETRIEVED if limit == free.cost.simulated_actions else Status.TIMEOUT)
-        assert slow.cost.simulated_actions == limit
