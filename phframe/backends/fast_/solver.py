@@ -180,18 +180,10 @@ def _floor(bodies: FloatArray, row: int, h: float) -> float:
 @compiled
 def _drive(world: FastWorld, most: float, h: float, vx: float, vy: float) -> float:
     """Draw the arm to the velocity that it is to have, with an impulse of at most ``most`` (N s)."""
-    arm, tip = world.arm, len(world.bodies) - 2
+    tip = len(world.bodies) - 2
     mass = 1.0 / world.bodies[tip, BY_MASS]
-    px = arm[DRIVE_X] * h + mass * (vx - world.bodies[tip, VX])
-    py = arm[DRIVE_Y] * h + mass * (vy - world.bodies[tip, VY])
-    size = length(px, py)
-    if size > most:
-        px, py = px * most / size, py * most / size
-    dx, dy = (px - arm[DRIVE_X] * h) / mass, (py - arm[DRIVE_Y] * h) / mass
-    world.bodies[tip, VX] += dx
-    world.bodies[tip, VY] += dy
-    arm[DRIVE_X], arm[DRIVE_Y] = px / h, py / h
-    return float(max(abs(dx), abs(dy)))
+    wanted_x, wanted_y = mass * (vx - world.bodies[tip, VX]), mass * (vy - world.bodies[tip, VY])
+    return _push_tip(world, most, h, (DRIVE_X, DRIVE_Y), (wanted_x, wanted_y))
 
 
 @compiled
@@ -201,12 +193,28 @@ def _drag(world: FastWorld, h: float, turn: float) -> float:
     mass, most = 1.0 / world.bodies[tip, BY_MASS], drag_force(world) * h
     vx = world.bodies[tip, VX] - turn * (world.bodies[held, Y] - arm[BODY_Y])
     vy = world.bodies[tip, VY] + turn * (world.bodies[held, X] - arm[BODY_X])
-    px, py = arm[DRAG_X] * h - mass * vx, arm[DRAG_Y] * h - mass * vy
+    return _push_tip(world, most, h, (DRAG_X, DRAG_Y), (-mass * vx, -mass * vy))
+
+
+@compiled
+def _push_tip(world: FastWorld, most: float, h: float, force: tuple[int, int], wanted: tuple[float, float]) -> float:
+    """Add an impulse on the fingertip to that of the iterations before, both together at most ``most``; how far that moved it.
+
+    Args:
+        world: The world.
+        most: Of the impulse (N s).
+        h: Of the step (s).
+        force: Fields of the arm with the force that the impulse so far stands for (N).
+        wanted: What is to be added (N s).
+    """
+    arm, tip = world.arm, len(world.bodies) - 2
+    mass = 1.0 / world.bodies[tip, BY_MASS]
+    px, py = arm[force[0]] * h + wanted[0], arm[force[1]] * h + wanted[1]
     size = length(px, py)
     if size > most:
         px, py = px * most / size, py * most / size
-    dx, dy = (px - arm[DRAG_X] * h) / mass, (py - arm[DRAG_Y] * h) / mass
+    dx, dy = (px - arm[force[0]] * h) / mass, (py - arm[force[1]] * h) / mass
     world.bodies[tip, VX] += dx
     world.bodies[tip, VY] += dy
-    arm[DRAG_X], arm[DRAG_Y] = px / h, py / h
+    arm[force[0]], arm[force[1]] = px / h, py / h
     return float(max(abs(dx), abs(dy)))
