@@ -44,11 +44,12 @@ def content_of(value: Plan | Episode) -> Any:
 def _bounded(value: Plan | Episode) -> Plan | Episode:
     """The same with search trees of no more nodes than a file holds: large ones are summarised."""
     if isinstance(value, Plan):
-        return _bounded_plan(value)
-    return replace(value, plans=tuple(map(_bounded_plan, value.plans)))
+        return bounded_plan(value)
+    return replace(value, plans=tuple(map(bounded_plan, value.plans)))
 
 
-def _bounded_plan(plan: Plan) -> Plan:
+def bounded_plan(plan: Plan) -> Plan:
+    """The plan as files hold it: of a large search tree, a part."""
     return plan if plan.tree is None else replace(plan, tree=plan.tree.summarised())
 
 
