@@ -28,14 +28,16 @@ def report(error: Exception) -> int:
         return ExitCode.SUCCESS
     if os.environ.get(DEBUG) == "1":
         note("".join(traceback.format_exception(error)).rstrip())
-    text, code = _described(error)
-    note(f"error: {_in_a_line(text)}")
+    (text, code), notes = _described(error), getattr(error, "__notes__", ())
+    note(f"error: {_in_a_line('; '.join([text.rstrip('.') if notes else text, *notes]))}")
     return code
 
 
 def _described(error: Exception) -> tuple[str, int]:
     if hasattr(error, "format_message"):  # of the option parser
         return _usage(error), ExitCode.BAD_INPUT
+    if isinstance(error, MemoryError):
+        return "it ran out of memory", ExitCode.OTHER_OUTCOME
     from phframe.core.errors import BudgetExceededError, NotInstalledError, PhframeError, SimulationDivergedError
 
     if isinstance(error, NotInstalledError):

@@ -130,3 +130,10 @@ class SimulationDivergedError(PhframeError):
 
 class BudgetExceededError(PhframeError):
     """A planner asked for more simulated time, or more simulations, than its budget holds."""
+
+
+class OverdueError(BudgetExceededError):
+    """The time is over while a simulation, or what a planner does between two of them, goes on."""
+
+    def __init__(self) -> None:
+        super().__init__("the time is over: it was stopped in the middle of what it did")

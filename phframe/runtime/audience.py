@@ -118,4 +118,9 @@ class Audience(Observer):
                 raise
             if observer in self._seated:
                 self._seated.remove(observer)
-            self.failures.append(f"{type(observer).__name__} failed: {type(error).__name__}: {said_by(error)}")
+            self.failures.append(_complaint(observer, error))
+
+
+def _complaint(observer: Observer, error: BaseException) -> str:
+    said = said_by(error) if isinstance(error, PhframeError) else f"{type(error).__name__}: {said_by(error)}"
+    return f"{observer.title or type(observer).__name__} failed: {said}"

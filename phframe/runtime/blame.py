@@ -17,7 +17,7 @@ from phframe.registry import Kind, catalogue, load
 HOME = "phframe"
 _LONGEST = 500
 """Characters of what an exception says."""
-_OUTCOMES = (BudgetExceededError, SimulationDivergedError, NotInstalledError)
+_OUTCOMES = (BudgetExceededError, SimulationDivergedError, NotInstalledError, MemoryError)
 """Exceptions that say what happened whoever raised them."""
 
 

@@ -12,6 +12,7 @@ from pydantic import TypeAdapter
 
 from phframe.core import Episode, InputError, Plan, Step
 from phframe.core.files import NewFile, write_file
+from phframe.core.paths import path_shown
 from phframe.runtime.files import FORMAT, bounded_plan
 
 
@@ -33,13 +34,13 @@ class EpisodeFile:
         Raises:
             InputError: If it cannot be written, or what a part of the run made cannot be stored.
         """
-        text = self._text(episode)
+        text = self._text(episode).encode()
         with NewFile(self.path) as file:
             try:
-                file.part.write_text(text, encoding="utf-8")
-                file.part.replace(self.path)
+                file.part.write_bytes(text)
             except OSError as error:
-                raise InputError(f"cannot write {self.path}: {error.strerror or error}") from None
+                raise InputError(f"cannot write {path_shown(self.path)}: {error.strerror or error}") from None
+            file.put(synchronise=False)
 
     def save(self, episode: Episode) -> Path:
         """Write an episode that is over, as ``save`` does.

@@ -180,6 +180,7 @@ class _Run:
 
     def _assess(self) -> Assessment:
         """What the goal makes of the world as it is."""
+        self._tell(lambda observer: observer.acting(LEAST_TO_ACT))
         last = self._steps[-1] if self._steps else None
         attempt = None if last is None else Attempt(last.action, last.motion, last.trajectory)
         return assess(self._goal, self._scene, self._state, attempt)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from phframe.core import ArmModel, ArmShape, BasePose, Episode, Plan, RunSpec, Scene, State, Step
 
@@ -34,6 +34,9 @@ class MountedArm:
 
 class Observer:
     """Told of what happens, in this order; each method does nothing unless it is overridden."""
+
+    title: ClassVar[str] = ""
+    """What it is called when it fails; empty: as its class."""
 
     def mounting(self, done: int, of: int) -> None:
         """So many of so many base poses have been looked at, before an episode whose arm is to be mounted for the scene."""
