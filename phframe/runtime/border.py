@@ -13,7 +13,7 @@ from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ValidationError
 
 from phframe.core import (
     Action,
@@ -39,6 +39,7 @@ from phframe.core.run_spec import first_fault
 from phframe.core.state import ArmState
 from phframe.registry import Kind
 from phframe.runtime.blame import is_own, said_by, title_of
+from phframe.runtime.files import adapter_of
 
 LONGEST_TEXT = 2000
 """Characters of a reason or a name that a part gives."""
@@ -102,7 +103,7 @@ def ask_planner(planner: Planner[Any], task: Task) -> Plan:
 
 def _checked_plan(plan: Plan, scene: Scene, title: str) -> Plan:
     """The plan as a file would give it back: of the right types, and nobody else's."""
-    adapter = TypeAdapter(Plan)
+    adapter = adapter_of(Plan)
     with _refusing(title):
         try:
             checked: Plan = adapter.validate_python(adapter.dump_python(plan, mode="json", warnings=False))

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
-from pydantic import TypeAdapter
-
-from phframe.core import Episode, InputError, Plan, Step
+from phframe.core import Episode, InputError
 from phframe.core.files import NewFile, write_file
 from phframe.core.paths import path_shown
-from phframe.runtime.files import FORMAT, bounded_plan
+from phframe.runtime.files import FORMAT, content_of
+
+_LASTING = ("scene", "spec", "versions")
+"""Fields of an episode that stay as they are while it runs."""
 
 
 class EpisodeFile:
-    """The file of one episode. Each plan and each step is written as JSON once, however often the file is.
+    """The file of one episode. Each plan and each step is turned into JSON once, however often the file is written.
 
     Args:
         path: The file; a regular one that is there is replaced.
@@ -27,6 +26,7 @@ class EpisodeFile:
         self.path = path
         self._plans: list[str] = []
         self._steps: list[str] = []
+        self._texts: dict[str, str] = {}
 
     def keep(self, episode: Episode) -> None:
         """Write what there is so far: whole, but left to the system when it gets to the disk.
@@ -52,16 +52,11 @@ class EpisodeFile:
 
     def _text(self, episode: Episode) -> str:
         """As ``save`` writes it."""
-        episode.spec.to_json()  # refuses what cannot be stored, which a serializer would wrap
-        _extend(self._plans, [bounded_plan(plan) for plan in episode.plans[len(self._plans) :]], Plan)
-        _extend(self._steps, episode.steps[len(self._steps) :], Step)
-        fields = TypeAdapter(Episode).dump_python(replace(episode, plans=(), steps=()), mode="json")
-        parts = {name: json.dumps(value) for name, value in fields.items()}
-        parts |= {"plans": f"[{', '.join(self._plans)}]", "steps": f"[{', '.join(self._steps)}]"}
-        content = ", ".join(f'"{name}": {text}' for name, text in parts.items())
+        plans, steps = episode.plans[len(self._plans) :], episode.steps[len(self._steps) :]
+        new = content_of(replace(episode, plans=plans, steps=steps), without=_LASTING if self._texts else ())
+        self._plans += map(json.dumps, new["plans"])
+        self._steps += map(json.dumps, new["steps"])
+        self._texts |= {name: json.dumps(value) for name, value in new.items()}
+        self._texts |= {"plans": f"[{', '.join(self._plans)}]", "steps": f"[{', '.join(self._steps)}]"}
+        content = ", ".join(f'"{name}": {text}' for name, text in self._texts.items())
         return f'{{"phframe": {FORMAT}, "kind": "episode", "episode": {{{content}}}}}'
-
-
-def _extend(texts: list[str], values: Sequence[Any], kind: type) -> None:
-    adapter: TypeAdapter[Any] = TypeAdapter(kind)
-    texts.extend(json.dumps(adapter.dump_python(value, mode="json")) for value in values)
