@@ -5,12 +5,13 @@ phframe's own parts are trusted and cost nothing here.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from copy import deepcopy
+from copy import copy, deepcopy
 from dataclasses import fields, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from pydantic import ValidationError
@@ -41,6 +42,8 @@ from phframe.registry import Kind
 from phframe.runtime.blame import is_own, said_by, title_of
 from phframe.runtime.files import adapter_of
 
+GoalT = TypeVar("GoalT", bound=Goal[Any])
+
 LONGEST_TEXT = 2000
 """Characters of a reason or a name that a part gives."""
 _FIGURES = ("duration", "largest_force", "tracking_error", "followed")
@@ -57,10 +60,11 @@ def _refusing(title: str) -> Iterator[None]:
     """Have what cannot even be looked at refused, too."""
     try:
         yield
-    except PhframeError:
+    except PluginError:
         raise
     except Exception as error:
-        raise refused(title, f"what it returned cannot be read: {type(error).__name__}: {said_by(error)}") from error
+        what = said_by(error) if isinstance(error, PhframeError) else f"{type(error).__name__}: {said_by(error)}"
+        raise refused(title, f"what it returned cannot be read: {what}") from error
 
 
 def check_arm(arm: ArmModel[Any], name: Any) -> None:
@@ -92,26 +96,35 @@ def ask_planner(planner: Planner[Any], task: Task) -> Plan:
     """
     if is_own(planner):
         return planner.plan(task)
-    scene = task.scene
+    scene, start = task.scene, task.start
     with task.paused():
         for name in ("scene", "start", "goal", "arm", "rejected", "earlier", "budget"):
             setattr(task, name, deepcopy(getattr(task, name)))
     plan = Planner.plan(planner, task)
     with task.paused():
-        return _checked_plan(plan, scene, title_of(Kind.PLANNER, planner))
+        return _checked_plan(plan, scene, start, title_of(Kind.PLANNER, planner))
 
 
-def _checked_plan(plan: Plan, scene: Scene, title: str) -> Plan:
-    """The plan as a file would give it back: of the right types, and nobody else's."""
+def _checked_plan(plan: Plan, scene: Scene, start: State, title: str) -> Plan:
+    """The plan as a file would give it back, of the right types and nobody else's; it begins where the task does."""
     adapter = adapter_of(Plan)
     with _refusing(title):
         try:
-            checked: Plan = adapter.validate_python(adapter.dump_python(plan, mode="json", warnings=False))
+            written = adapter.dump_python(_from_start(plan, start), mode="json", warnings=False)
+            json.dumps(written, ensure_ascii=False).encode()  # no text that nobody can write
+            checked: Plan = adapter.validate_python(written)
         except ValidationError as error:
             raise refused(title, f"its plan cannot be: {first_fault(error)}") from None
     if (problem := next(_problems_of_plan(checked, scene), None)) is not None:
         raise refused(title, f"its plan cannot be: {problem}")
     return replace(checked, cost=plan.cost, reason=checked.reason[:LONGEST_TEXT])
+
+
+def _from_start(plan: Plan, start: State) -> Plan:
+    if plan.tree is None:
+        return plan
+    root, *rest = plan.tree.nodes
+    return replace(plan, tree=replace(plan.tree, nodes=(replace(root, state=start), *rest)))
 
 
 def _problems_of_plan(plan: Plan, scene: Scene) -> Iterator[str]:
@@ -222,15 +235,25 @@ def checked_motion(motion: Any, title: str) -> Motion:
         return Motion(**{**content, **contacts, **{name: float(content[name]) for name in _FIGURES}})
 
 
-def assess(goal: Goal[Any], scene: Scene, state: State, last: Attempt | None) -> Assessment:
-    """What a goal makes of a world; a foreign one is given copies.
+def guarded_goal(goal: GoalT) -> GoalT:
+    """A goal as it is to be used: phframe's own as it is, another of a class whose assessments are checked.
 
-    Raises:
-        PluginError: If it is no assessment.
+    It is given copies, and is still of its own class, which planners may ask for.
     """
     if is_own(goal):
-        return goal.assess(scene, state, last)
-    found: Any = goal.assess(*deepcopy((scene, state, last)))
+        return goal
+    title = title_of(Kind.GOAL, goal)
+
+    def assess(self: Goal[Any], scene: Scene, state: State, last: Attempt | None = None) -> Assessment:
+        return _checked_assessment(type(goal).assess(self, *deepcopy((scene, state, last))), title)
+
+    guarded = copy(goal)
+    own = type(goal)
+    guarded.__class__ = type(own.__name__, (own,), {"assess": assess, "__module__": own.__module__})
+    return guarded
+
+
+def _checked_assessment(found: Any, title: str) -> Assessment:
     if not (isinstance(found, Assessment) and found.status in list(Status) and type(found.reason) is str):
-        raise refused(title_of(Kind.GOAL, goal), f"it assessed a world as {found!r:.80}")
+        raise refused(title, f"it assessed a world as {found!r:.80}")
     return Assessment(found.status, found.reason[:LONGEST_TEXT], bool(found.lost))

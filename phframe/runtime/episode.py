@@ -38,7 +38,7 @@ from phframe.core.episode import MOVED
 from phframe.core.errors import BudgetExceededError
 from phframe.runtime.aids import Aids
 from phframe.runtime.blame import blamed, said_by
-from phframe.runtime.border import ask_planner, assess
+from phframe.runtime.border import ask_planner
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
@@ -183,7 +183,7 @@ class _Run:
         self._tell(lambda observer: observer.acting(LEAST_TO_ACT))
         last = self._steps[-1] if self._steps else None
         attempt = None if last is None else Attempt(last.action, last.motion, last.trajectory)
-        return assess(self._goal, self._scene, self._state, attempt)
+        return self._goal.assess(self._scene, self._state, attempt)
 
     def _plan(self) -> Plan:
         """Ask the planner, with what is left of the time."""

@@ -48,7 +48,9 @@ def content_of(value: Plan | Episode, without: Collection[str] = ()) -> Any:
     """
     if isinstance(value, Episode) and "spec" not in without:
         value.spec.to_json()  # refuses what cannot be stored, which a serializer would wrap
-    return adapter_of(Episode if isinstance(value, Episode) else Plan).dump_python(_bounded(value), mode="json", exclude=set(without))
+    return adapter_of(Episode if isinstance(value, Episode) else Plan).dump_python(
+        _bounded(value), mode="json", exclude=set(without)
+    )
 
 
 @cache

@@ -24,7 +24,7 @@ from phframe.registry import Kind, create, identify, load, refuse_stored_code
 from phframe.runtime.aids import Aids
 from phframe.runtime.audience import Audience, ObserverError
 from phframe.runtime.blame import blaming
-from phframe.runtime.border import copied_scene
+from phframe.runtime.border import copied_scene, guarded_goal
 from phframe.runtime.confirmation import Confirmation
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
@@ -134,7 +134,7 @@ def prepare(spec: RunSpec) -> Prepared:
     parts = _identified(spec)
     made = {part: create(_kind(part), *parts[part]) for part in ("planner", "topology", "goal")}
     made["planner"].check(copied_scene(made["planner"], scene))
-    made["topology"] = guarded_topology(made["topology"])
+    made["topology"], made["goal"] = guarded_topology(made["topology"]), guarded_goal(made["goal"])
     world = WorldSpec(scene, parts["backend"][0], parts["arm"][0], parts["backend"][1], parts["arm"][1])
     plan_world, inherited = _plan_world(world, parts)
     stored = {part: _differing(_kind(part), *parts[part], {}) for part in PARTS if not part.startswith("plan_")}
