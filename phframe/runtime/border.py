@@ -36,6 +36,7 @@ from phframe.core import (
     StopReason,
     Task,
 )
+from phframe.core.errors import BudgetExceededError
 from phframe.core.run_spec import first_fault
 from phframe.core.state import ArmState
 from phframe.registry import Kind
@@ -60,7 +61,7 @@ def _refusing(title: str) -> Iterator[None]:
     """Have what cannot even be looked at refused, too."""
     try:
         yield
-    except PluginError:
+    except (PluginError, BudgetExceededError):
         raise
     except Exception as error:
         what = said_by(error) if isinstance(error, PhframeError) else f"{type(error).__name__}: {said_by(error)}"
