@@ -22,7 +22,7 @@ from phframe.core import (
 from phframe.geometry.arm_view import arm_view
 from phframe.pushing.corridor import Corridor, corridor_half_width, find_corridor, with_room
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.grasp import Grasp, GraspFinder
+from phframe.pushing.grasp import Grasp, GraspFinder, Rejects
 from phframe.pushing.grouping import closest_component, merged_labels
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
@@ -185,9 +185,11 @@ class Pushing:
             return found
         return replace(found, deviations=(*problem.deviations, *found.deviations))
 
-    def grasps_along(self, state: State, corridors: Sequence[Corridor]) -> list[Grasp | Infeasible]:
-        """The same along each of any corridors; see ``corridor_at``."""
-        return self._grasps.candidates(state, corridors, self.task.rejects)
+    def grasps_along(
+        self, state: State, corridors: Sequence[Corridor], rejects: Rejects = lambda _: None
+    ) -> list[Grasp | Infeasible]:
+        """The same along each of any corridors (see ``corridor_at``), without what is rejected besides."""
+        return self._grasps.candidates(state, corridors, lambda action: self.task.rejects(action) or rejects(action))
 
     def _generator(self, problem: PushProblem, chosen: IntArray) -> SweepGenerator:
         return SweepGenerator(
