@@ -50,7 +50,7 @@ class Pushing:
         self.task, self.options = task, options
         self.scene = task.goal.scene(task.scene) if isinstance(task.goal, Retrieve) else task.scene
         self.half_width = corridor_half_width(options.half_width, self.scene, task.arm)
-        self._radii = self.scene.radii
+        self._radii, self._met = self.scene.radii, task.arm.met(self.scene)
         self._view = arm_view(self.scene.shelf, task.arm, task.arm.min_opening, options.wall_clearance)
         self._grasps = GraspFinder(self.scene, task.arm, options)
         obstacles = np.delete(self._radii, self.scene.target_index)
@@ -89,7 +89,7 @@ class Pushing:
         if blockers:
             counts |= np.isin(self.scene.ids, list(blockers))
         counts[self.scene.target_index] = False
-        return np.flatnonzero(counts & state.on_board)
+        return np.flatnonzero(counts & state.on_board & self._met)
 
     def diagram(self, problem: PushProblem) -> PersistenceDiagram:
         """The persistence diagram of the obstacles that count, by their landmarks: of cylinders, the centres."""
