@@ -38,12 +38,20 @@ def _described(error: Exception) -> tuple[str, int]:
         return _usage(error), ExitCode.BAD_INPUT
     if isinstance(error, MemoryError):
         return "it ran out of memory", ExitCode.OTHER_OUTCOME
-    from phframe.core.errors import BudgetExceededError, NotInstalledError, PhframeError, SimulationDivergedError
+    from phframe.core.errors import (
+        BudgetExceededError,
+        NotInstalledError,
+        PartFailedError,
+        PhframeError,
+        SimulationDivergedError,
+    )
 
     if isinstance(error, NotInstalledError):
         return str(error), ExitCode.NOT_INSTALLED
     if isinstance(error, (SimulationDivergedError, BudgetExceededError)):
         return str(error), ExitCode.OTHER_OUTCOME
+    if isinstance(error, PartFailedError):
+        return f"{error} ({_place_of_traceback(error)})", ExitCode.BAD_INPUT
     if isinstance(error, PhframeError):
         return str(error), ExitCode.BAD_INPUT
     return f"internal: {type(error).__name__}: {error} ({_place_of_traceback(error)})", ExitCode.INTERNAL_ERROR

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 
-from phframe.cli.supervised import LOADING, Link
+from phframe.cli.supervised import LOADING, WatchdogLink
 from phframe.core import Episode, Plan, RunSpec, Scene, Step
 from phframe.runtime.observer import Frames, MountedArm, Observer
 
@@ -19,7 +19,7 @@ class LimitsTold(Observer):
         link: To the watchdog.
     """
 
-    def __init__(self, link: Link) -> None:
+    def __init__(self, link: WatchdogLink) -> None:
         self._link, self._left = link, 0.0
 
     def mounting(self, done: int, of: int) -> None:

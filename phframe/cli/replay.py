@@ -9,7 +9,7 @@ import typer
 
 from phframe.cli import completion
 from phframe.cli.flags import flag, part, path
-from phframe.cli.supervised import Link, supervised
+from phframe.cli.supervised import WatchdogLink, supervised
 
 _SAME = "as in the episode"
 
@@ -68,7 +68,7 @@ def replay(
     3: something not installed; 130: Ctrl-C.
     """
 
-    def work(link: Link) -> int:
+    def work(link: WatchdogLink) -> int:
         from phframe.cli.replaying import run  # heavy, and not needed where the command line is wrong
         from phframe.core.run_spec import PARTS
 

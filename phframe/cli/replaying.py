@@ -13,7 +13,7 @@ from phframe.cli.episodes import read_episode
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.run import RunOutput, carry_out, show_recording
 from phframe.cli.run_directory import RunDirectory
-from phframe.cli.supervised import Link
+from phframe.cli.supervised import WatchdogLink
 from phframe.core import Episode
 from phframe.core.run_spec import PARTS
 from phframe.runtime.replay import StoredAdvice, differing_versions, first_difference, spec_of
@@ -23,7 +23,7 @@ FORMAT = 1
 
 
 def run(
-    episode: Path, parts: Mapping[str, str | None], out: Path | None, link: Link, *, view: bool, as_json: bool
+    episode: Path, parts: Mapping[str, str | None], out: Path | None, link: WatchdogLink, *, view: bool, as_json: bool
 ) -> int:
     """Repeat an episode and print how the repetition compares.
 

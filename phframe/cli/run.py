@@ -18,7 +18,7 @@ from phframe.cli.partial import PartialEpisode
 from phframe.cli.progress import Progress
 from phframe.cli.recording import RECORDING, RunFiles, VideoFile, recorder_type
 from phframe.cli.run_directory import RUNS, RunDirectory
-from phframe.cli.supervised import Link
+from phframe.cli.supervised import WatchdogLink
 from phframe.core import Advisor, Episode, RunSpec
 from phframe.core.errors import OverdueError
 from phframe.recorders.view import open_viewer, require_viewer
@@ -64,7 +64,7 @@ class Carried:
     failure: ObserverError | None
 
 
-def run(spec: RunSpec, report: RunOutput, link: Link) -> int:
+def run(spec: RunSpec, report: RunOutput, link: WatchdogLink) -> int:
     """Carry out a run, and leave and print what is wanted of it.
 
     Args:
@@ -99,7 +99,7 @@ def carry_out(
     report: RunOutput,
     directory: RunDirectory,
     advisor: Advisor | None = None,
-    link: Link = Link(),  # noqa: B008 - without a pipe it holds nothing
+    link: WatchdogLink = WatchdogLink(),  # noqa: B008 - without a pipe it holds nothing
 ) -> Carried | None:
     """Carry out a run and leave the files that are wanted.
 

@@ -10,7 +10,7 @@ import typer
 from phframe.cli import completion
 from phframe.cli.flags import Arm, finite, flag, part, path
 from phframe.cli.options import parse_options
-from phframe.cli.supervised import Link, supervised
+from phframe.cli.supervised import WatchdogLink, supervised
 
 SceneSpec = Annotated[
     str,
@@ -164,7 +164,7 @@ def solve(
             "there is nothing to view without a recording. Leave out --no-rerun.", param_hint="--view"
         )
 
-    def work(link: Link) -> int:
+    def work(link: WatchdogLink) -> int:
         from phframe.cli.run import RunOutput, run  # heavy, and not needed where the command line is wrong
         from phframe.core import Loop, RunSpec
         from phframe.runtime.noise import Noise

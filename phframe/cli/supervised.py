@@ -25,7 +25,7 @@ LOADING = 300.0
 _PR_SET_PDEATHSIG = 1
 
 
-class Link:
+class WatchdogLink:
     """What the child tells the watchdog. Without one nobody is told.
 
     Args:
@@ -67,7 +67,7 @@ class Link:
             raise OverdueError
 
 
-def supervised(context: typer.Context, work: Callable[[Link], int], memory: int | None = None) -> int:
+def supervised(context: typer.Context, work: Callable[[WatchdogLink], int], memory: int | None = None) -> int:
     """Do something in a child process under a watchdog, where the command runs on its own and the system can fork.
 
     Args:
@@ -79,7 +79,7 @@ def supervised(context: typer.Context, work: Callable[[Link], int], memory: int 
         The exit code.
     """
     if context.find_root().obj is not SUPERVISED or not hasattr(os, "fork"):
-        return work(Link())
+        return work(WatchdogLink())
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
             stream.flush()
@@ -87,7 +87,7 @@ def supervised(context: typer.Context, work: Callable[[Link], int], memory: int 
     try:
         child = os.fork()
     except OSError:  # no process is to be had: without a watchdog, then
-        return work(Link())
+        return work(WatchdogLink())
     if child:
         from phframe.cli.watchdog import Watchdog
 
@@ -95,7 +95,7 @@ def supervised(context: typer.Context, work: Callable[[Link], int], memory: int 
         os.set_blocking(reader, False)
         return Watchdog(child, reader, memory).wait()
     os.close(reader)
-    link = Link(writer)
+    link = WatchdogLink(writer)
     link.signals.install()
     _end_with(parent)
     link.limit(LOADING, "loading")
@@ -104,7 +104,7 @@ def supervised(context: typer.Context, work: Callable[[Link], int], memory: int 
     return code
 
 
-def _code_of(work: Callable[[Link], int], link: Link) -> int:
+def _code_of(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
     """What the command ends with, its errors told."""
     try:
         return work(link)

@@ -104,6 +104,10 @@ class PluginError(PhframeError):
     """A plugin that does not load or does not keep to its interface."""
 
 
+class PartFailedError(PluginError):
+    """A part of a run, or code that one called, raised an exception or asked to exit; its cause says where."""
+
+
 class IncompatibleError(InputError):
     """Parts that exist but cannot be used together, such as an arm and a backend."""
 

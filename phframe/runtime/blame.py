@@ -9,8 +9,8 @@ from pathlib import PurePath
 from traceback import extract_tb, walk_tb
 from typing import Any
 
-from phframe.core import PhframeError, PluginError, RunSpec, SimulationDivergedError
-from phframe.core.errors import BudgetExceededError, NotInstalledError
+from phframe.core import PhframeError, RunSpec, SimulationDivergedError
+from phframe.core.errors import BudgetExceededError, NotInstalledError, PartFailedError
 from phframe.core.run_spec import PARTS
 from phframe.registry import Kind, catalogue, load
 
@@ -21,12 +21,8 @@ _OUTCOMES = (BudgetExceededError, SimulationDivergedError, NotInstalledError, Me
 """Exceptions that say what happened whoever raised them."""
 
 
-class PartFailedError(PluginError):
-    """A part of a run, or code that one called, raised an exception or asked to exit."""
-
-
 @dataclass(frozen=True, slots=True)
-class Part:
+class ForeignPart:
     """A part of a run that is none of phframe's own.
 
     Attributes:
@@ -91,7 +87,7 @@ def blamed(error: BaseException, spec: RunSpec) -> BaseException:
     return PartFailedError(f"{culprit.title if culprit else 'a part of the run'} {_deed(error, culprit)}")
 
 
-def parts_of(spec: RunSpec) -> list[Part]:
+def parts_of(spec: RunSpec) -> list[ForeignPart]:
     """The parts of a run that are not phframe's own, as far as they can be loaded."""
     named = [(Kind(part.removeprefix("plan_")), getattr(spec, part)) for part in PARTS]
     if isinstance(spec.scene, str) and "/" in spec.scene and not spec.scene.endswith((".yaml", ".yml")):
@@ -102,13 +98,13 @@ def parts_of(spec: RunSpec) -> list[Part]:
             own = part is None or is_own(load(kind, part) if isinstance(part, str) else part)
             if not own:
                 loaded = load(kind, part) if isinstance(part, str) else getattr(part, "__wrapped__", part)
-                found.append(Part(package_of(loaded), title_of(kind, part)))
+                found.append(ForeignPart(package_of(loaded), title_of(kind, part)))
         except (Exception, SystemExit):  # noqa: BLE001, S112, PERF203, RUF100 - what does not load is told elsewhere
             continue
     return found
 
 
-def _culprit(error: BaseException, parts: list[Part]) -> Part | None:
+def _culprit(error: BaseException, parts: list[ForeignPart]) -> ForeignPart | None:
     """The part whose code is nearest to where an exception was raised."""
     by_package = {part.package: part for part in reversed(parts)}
     frames = [frame.f_globals.get("__name__") for frame, _ in walk_tb(error.__traceback__)]
@@ -116,7 +112,7 @@ def _culprit(error: BaseException, parts: list[Part]) -> Part | None:
     return next((by_package[package] for package in reversed(packages) if package in by_package), None)
 
 
-def _deed(error: BaseException, culprit: Part | None) -> str:
+def _deed(error: BaseException, culprit: ForeignPart | None) -> str:
     if isinstance(error, SystemExit):
         return f"asked to exit, with {error.code!r:.40}"
     if isinstance(error, PhframeError):
@@ -133,7 +129,7 @@ def said_by(error: BaseException) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 
 
-def _place(error: BaseException, culprit: Part | None) -> str:
+def _place(error: BaseException, culprit: ForeignPart | None) -> str:
     """The last line of the part's own code on the way to an exception."""
     summaries = extract_tb(error.__traceback__)
     names = [str(frame.f_globals.get("__name__")).partition(".")[0] for frame, _ in walk_tb(error.__traceback__)]

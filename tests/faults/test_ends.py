@@ -69,15 +69,15 @@ def test_a_planner_that_fails_when_it_is_asked_again(deed: str, spawn: Spawn) ->
 
 
 @pytest.mark.parametrize(
-    ("part", "name"),
+    ("part", "name", "deed"),
     [
-        ("backend", "DoesItWhileExecuting"),
-        ("topology", "DoesItInTopology"),
-        ("arm", "DoesItInArm"),
-        ("goal", "DoesItInGoal"),
+        ("backend", "DoesItWhileExecuting", "raises"),
+        ("backend", "DoesItWhileExecuting", "exits"),
+        ("topology", "DoesItInTopology", "raises"),
+        ("arm", "DoesItInArm", "raises"),
+        ("goal", "DoesItInGoal", "asks_to_exit"),
     ],
 )
-@pytest.mark.parametrize("deed", ["raises", "exits"])
 def test_every_part_that_fails_is_named(part: str, name: str, deed: str, spawn: Spawn) -> None:  # noqa: F811
     code, said = DEEDS[deed]
     plan_in = ("--plan-backend", "pymunk") if part == "backend" else ()
