@@ -12,6 +12,7 @@ from typing import Any
 from phframe.core import PhframeError, RunSpec, SimulationDivergedError
 from phframe.core.errors import BudgetExceededError, NotInstalledError, PartFailedError
 from phframe.core.run_spec import PARTS
+from phframe.core.variant import split_variant
 from phframe.registry import Kind, catalogue, load
 
 HOME = "phframe"
@@ -47,15 +48,16 @@ def package_of(part: Any) -> str:
 
 def title_of(kind: Kind, part: Any) -> str:
     """A part for people: ``planner 'mine' of lab-push 1.0``; of a class that is not registered, its name."""
-    if not isinstance(part, str):
+    if isinstance(part, str):
+        plain, _ = split_variant(part)
+        entry = catalogue().entry(kind, plain)
+        name = plain if entry else plain.rpartition(":")[2]
+    else:
         part = getattr(part, "__wrapped__", part)
         target = part if isinstance(part, type) else type(part)
         whole = f"{target.__module__}:{target.__qualname__}"
-        entries = (each for each in catalogue().extensions(kind) if each.extension.target == whole)
-        entry = next(entries, None)
-        name = target.__name__ if entry is None else entry.name
-    else:
-        name, entry = part, catalogue().entry(kind, part)
+        entry = next((each for each in catalogue().extensions(kind) if each.extension.target == whole), None)
+        name = entry.name if entry else target.__name__
     return f"{kind} {name!r}" + (f" of {entry.distribution} {entry.version}".rstrip() if entry else "")
 
 

@@ -364,7 +364,10 @@ def test_a_planner_in_a_file_is_repeated_only_if_it_is_given(invoke: Invoke) -> 
     assert refused.exit_code == 2
     assert f"give it yourself, as in --planner {name}" in refused.stderr
     same = invoke(*words, "--planner", name)
-    assert (same.exit_code, same.stdout.startswith("the same: error (RuntimeError: no idea")) == (0, True)
+    assert (
+        same.exit_code,
+        same.stdout.startswith("the same: error (planner 'Raises' raised RuntimeError: no idea"),
+    ) == (0, True)
     assert "Traceback" in same.stderr
     assert "is not the planner of the trial" in invoke(*words, "--planner", "phia").stderr
 

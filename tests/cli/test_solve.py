@@ -100,7 +100,7 @@ def test_an_error_in_a_planner_is_one_line_and_its_traceback_and_the_episode_are
     arguments = ("solve", "--planner", "./mine.py:Breaks", "--no-rerun", "--json")
     result = invoke(*arguments)
     assert (result.exit_code, result.stdout) == (2, "")
-    assert result.stderr.startswith("error: planner './mine.py:Breaks' raised RuntimeError: never meant to be (line ")
+    assert result.stderr.startswith("error: planner 'Breaks' raised RuntimeError: never meant to be (line ")
     assert result.stderr.count("\n") == 1
     kept = result.stderr.partition("the traceback is in ")[2].partition(";")[0]
     assert "mine.py" in Path(kept).read_text()

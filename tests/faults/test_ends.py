@@ -85,7 +85,7 @@ def test_every_part_that_fails_is_named(part: str, name: str, deed: str, spawn: 
     _, [line], episode = ended(process)
     assert process.returncode == code
     assert said in line
-    assert f"{part} '{HOSTILE}:{name}'" in line or deed == "exits"
+    assert f"{part} {name!r}" in line or deed == "exits"
     assert episode.status is Status.FAILED
     assert len(episode.steps) == (1 if part == "backend" else 0)
 
