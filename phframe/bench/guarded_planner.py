@@ -24,7 +24,7 @@ class GuardedPlanner(Planner[Options]):
 
     def __init__(self, planner: Planner[Any]) -> None:
         super().__init__(Options())
-        self._planner = planner
+        self.__wrapped__ = planner
         self._asked = False
         self.first_solution_time: float | None = None
 
@@ -36,12 +36,12 @@ class GuardedPlanner(Planner[Options]):
         """
         with task.paused():
             given = {name: deepcopy(getattr(task, name)) for name in _GIVEN}
-        plan = self._planner.plan(task)
+        plan = self.__wrapped__.plan(task)
         with task.paused():
             changed = [name for name, value in given.items() if getattr(task, name) != value]
         if changed:
             raise PluginError(
-                f"planner {type(self._planner).__name__} changed what it was given: {', '.join(changed)}. A planner may "
+                f"planner {type(self.__wrapped__).__name__} changed what it was given: {', '.join(changed)}. A planner may "
                 "read its task, no more"
             )
         if not self._asked:

@@ -92,7 +92,7 @@ def _again(spec: RunSpec, report: RunOutput, directory: RunDirectory) -> dict[st
         return {"end": TrialEnd.ERROR, "reason": " ".join(described(error).split())}
     if carried is None:
         raise KeyboardInterrupt
-    return {"end": TrialEnd.FINISHED, **measured(carried[0])}
+    return {"end": TrialEnd.FINISHED, **measured(carried.episode)}
 
 
 def _compared(before: TrialResult, now: Mapping[str, Any], fault: str) -> dict[str, Any]:

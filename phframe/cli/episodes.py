@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from phframe.cli.run import EPISODE
+from phframe.cli.watchdog import EPISODE
 from phframe.core import Episode, InputError
 from phframe.core.paths import path_shown
 from phframe.runtime.files import load

@@ -28,20 +28,30 @@ def report(error: Exception) -> int:
         return ExitCode.SUCCESS
     if os.environ.get(DEBUG) == "1":
         note("".join(traceback.format_exception(error)).rstrip())
-    text, code = _described(error)
-    note(f"error: {_in_a_line(text)}")
+    (text, code), notes = _described(error), getattr(error, "__notes__", ())
+    note(f"error: {_in_a_line('; '.join([text.rstrip('.') if notes else text, *notes]))}")
     return code
 
 
 def _described(error: Exception) -> tuple[str, int]:
     if hasattr(error, "format_message"):  # of the option parser
         return _usage(error), ExitCode.BAD_INPUT
-    from phframe.core.errors import BudgetExceededError, NotInstalledError, PhframeError, SimulationDivergedError
+    if isinstance(error, MemoryError):
+        return "it ran out of memory", ExitCode.OTHER_OUTCOME
+    from phframe.core.errors import (
+        BudgetExceededError,
+        NotInstalledError,
+        PartFailedError,
+        PhframeError,
+        SimulationDivergedError,
+    )
 
     if isinstance(error, NotInstalledError):
         return str(error), ExitCode.NOT_INSTALLED
     if isinstance(error, (SimulationDivergedError, BudgetExceededError)):
         return str(error), ExitCode.OTHER_OUTCOME
+    if isinstance(error, PartFailedError):
+        return f"{error} ({_place_of_traceback(error)})", ExitCode.BAD_INPUT
     if isinstance(error, PhframeError):
         return str(error), ExitCode.BAD_INPUT
     return f"internal: {type(error).__name__}: {error} ({_place_of_traceback(error)})", ExitCode.INTERNAL_ERROR

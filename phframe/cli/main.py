@@ -12,10 +12,12 @@ from phframe.cli.console import emit
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.export import export
 from phframe.cli.group import CommandGroup, show_help
+from phframe.cli.interrupt import ENDING
 from phframe.cli.replay import replay
 from phframe.cli.report import report
 from phframe.cli.scenes import scenes
 from phframe.cli.solve import solve
+from phframe.cli.supervised import SUPERVISED
 
 app = typer.Typer(
     cls=CommandGroup,
@@ -57,5 +59,8 @@ def _version() -> str:
 
 def main() -> None:
     """Entry point of the command; ends the process. Being told to terminate is like Ctrl-C: what was recorded is kept."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    app(prog_name="phframe")
+    for name in ENDING:
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, signal.default_int_handler)
+    app(prog_name="phframe", obj=SUPERVISED)

@@ -21,10 +21,18 @@ class RunFiles(Observer):
     Args:
         directory: Where.
         recorder_type: Given a file, the recorder that writes it; None: nothing is recorded.
+        made: Is told of the directory once it is there.
     """
 
-    def __init__(self, directory: RunDirectory, recorder_type: RecorderType | None) -> None:
-        self._directory, self._recorder_type = directory, recorder_type
+    title = "the recording"
+
+    def __init__(
+        self,
+        directory: RunDirectory,
+        recorder_type: RecorderType | None,
+        made: Callable[[Path], None] = lambda path: None,
+    ) -> None:
+        self._directory, self._recorder_type, self._made = directory, recorder_type, made
         self._recorder: Observer | None = None
         self.recording: Path | None = None
 
@@ -37,6 +45,7 @@ class RunFiles(Observer):
         if not self._directory.keep:
             return
         path = self._directory.make(scene.name, spec.name_of("planner"))
+        self._made(path)
         if self._recorder_type is not None:
             self._recorder = self._recorder_type(path / RECORDING)
             self._recorder.begin(scene, spec, arm)
@@ -74,6 +83,8 @@ class VideoFile(Observer):
         NotInstalledError: If a library that it needs is not installed.
         InputError: If the file cannot be written, or nothing here can draw.
     """
+
+    title = "the video"
 
     def __init__(self, path: Path, through: Callable[[Frames], Frames]) -> None:
         from phframe.registry import Kind, load

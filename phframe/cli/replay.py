@@ -9,6 +9,7 @@ import typer
 
 from phframe.cli import completion
 from phframe.cli.flags import flag, part, path
+from phframe.cli.supervised import WatchdogLink, supervised
 
 _SAME = "as in the episode"
 
@@ -48,6 +49,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON
 
 
 def replay(
+    context: typer.Context,
     episode: EpisodePath,
     planner: Planner = None,
     backend: Backend = None,
@@ -65,8 +67,12 @@ def replay(
     With another part, such as a planner, the outcomes are compared. Exit code 0: the same; 1: not the same; 2: bad input;
     3: something not installed; 130: Ctrl-C.
     """
-    from phframe.cli.replaying import run  # heavy, and not needed where the command line is wrong
-    from phframe.core.run_spec import PARTS
 
-    parts = dict(zip(PARTS, (planner, backend, arm, plan_backend, plan_arm, topology, goal), strict=True))
-    raise typer.Exit(run(episode, parts, out, view=view, as_json=as_json))
+    def work(link: WatchdogLink) -> int:
+        from phframe.cli.replaying import run  # heavy, and not needed where the command line is wrong
+        from phframe.core.run_spec import PARTS
+
+        parts = dict(zip(PARTS, (planner, backend, arm, plan_backend, plan_arm, topology, goal), strict=True))
+        return run(episode, parts, out, link, view=view, as_json=as_json)
+
+    raise typer.Exit(supervised(context, work))

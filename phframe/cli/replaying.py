@@ -13,6 +13,7 @@ from phframe.cli.episodes import read_episode
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.run import RunOutput, carry_out, show_recording
 from phframe.cli.run_directory import RunDirectory
+from phframe.cli.supervised import WatchdogLink
 from phframe.core import Episode
 from phframe.core.run_spec import PARTS
 from phframe.runtime.replay import StoredAdvice, differing_versions, first_difference, spec_of
@@ -21,13 +22,16 @@ FORMAT = 1
 """Of the JSON object."""
 
 
-def run(episode: Path, parts: Mapping[str, str | None], out: Path | None, *, view: bool, as_json: bool) -> int:
+def run(
+    episode: Path, parts: Mapping[str, str | None], out: Path | None, link: WatchdogLink, *, view: bool, as_json: bool
+) -> int:
     """Repeat an episode and print how the repetition compares.
 
     Args:
         episode: A directory, or a file.
         parts: What to take instead of the episode's; None: the same.
         out: Directory for the files; None: none, or a new one.
+        link: To the watchdog.
         view: Whether to open the viewer.
         as_json: Whether to print JSON.
 
@@ -43,12 +47,14 @@ def run(episode: Path, parts: Mapping[str, str | None], out: Path | None, *, vie
     report = RunOutput(out, record=True if view else None if kept else False, view=view)
     directory = RunDirectory(out, keep=kept)
     same_planner = spec.planner == before.spec.planner
-    carried = carry_out(spec, report, directory, StoredAdvice(before) if same_planner else None)
+    carried = carry_out(spec, report, directory, StoredAdvice(before) if same_planner else None, link)
     if carried is None:
         return ExitCode.INTERRUPTED
     same_parts = all(getattr(spec, part) == getattr(before.spec, part) for part in PARTS)
-    found = _compared(before, carried[0], bits=same_parts)
+    found = _compared(before, carried.episode, bits=same_parts)
     emit(json.dumps(found, allow_nan=False) if as_json else _sentence(found))
+    if carried.failure is not None:
+        raise carried.failure
     show_recording(report, directory)
     return ExitCode.SUCCESS if found["same"] else ExitCode.OTHER_OUTCOME
 

@@ -10,6 +10,7 @@ import typer
 from phframe.cli import completion
 from phframe.cli.flags import Arm, finite, flag, part, path
 from phframe.cli.options import parse_options
+from phframe.cli.supervised import WatchdogLink, supervised
 
 SceneSpec = Annotated[
     str,
@@ -56,7 +57,13 @@ OptionTexts = Annotated[
     ),
 ]
 TimeLimit = Annotated[
-    float, flag("SECONDS", "Longest planning time, all replans together (wall time, s).", min=0.001, callback=finite)
+    float,
+    flag(
+        "SECONDS",
+        "Longest planning time, all replans together (wall time, s). Carrying out may take as long, but at least a minute.",
+        min=0.001,
+        callback=finite,
+    ),
 ]
 MaxReplans = Annotated[
     int,
@@ -85,6 +92,10 @@ Workers = Annotated[
         "Processes for planners that try many actions at once; the result is the same with any number.",
         min=1,
     ),
+]
+MemoryLimit = Annotated[
+    int,
+    flag("MEGABYTES", "Most memory that the run may have in use; where it has more, it is ended (Linux).", min=1),
 ]
 Out = Annotated[
     Path | None,
@@ -119,6 +130,7 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progres
 
 
 def solve(
+    context: typer.Context,
     scene: SceneSpec = "vieira/basic",
     planner: Planner = "phia",
     backend: Backend = "pymunk",
@@ -135,6 +147,7 @@ def solve(
     tolerance: Tolerance = 0.01,
     simulations: Simulations = None,
     workers: Workers = 1,
+    memory_limit: MemoryLimit = 8192,
     out: Out = None,
     rerun: Rerun = None,
     video: Video = None,
@@ -150,23 +163,27 @@ def solve(
         raise typer.BadParameter(
             "there is nothing to view without a recording. Leave out --no-rerun.", param_hint="--view"
         )
-    from phframe.cli.run import RunOutput, run  # heavy, and not needed where the command line is wrong
-    from phframe.core import Loop, RunSpec
-    from phframe.runtime.noise import Noise
 
-    spec = RunSpec(
-        scene,
-        planner,
-        backend,
-        arm,
-        plan_backend,
-        plan_arm,
-        topology,
-        goal,
-        parse_options(option or ()),
-        seed,
-        Loop(max_replans, tolerance, time_limit, simulations),
-        Noise.of(noise).model_dump(exclude_defaults=True),
-        workers,
-    )
-    raise typer.Exit(run(spec, RunOutput(out, True if view else rerun, video, view, as_json, quiet)))
+    def work(link: WatchdogLink) -> int:
+        from phframe.cli.run import RunOutput, run  # heavy, and not needed where the command line is wrong
+        from phframe.core import Loop, RunSpec
+        from phframe.runtime.noise import Noise
+
+        spec = RunSpec(
+            scene,
+            planner,
+            backend,
+            arm,
+            plan_backend,
+            plan_arm,
+            topology,
+            goal,
+            parse_options(option or ()),
+            seed,
+            Loop(max_replans, tolerance, time_limit, simulations),
+            Noise.of(noise).model_dump(exclude_defaults=True),
+            workers,
+        )
+        return run(spec, RunOutput(out, True if view else rerun, video, view, as_json, quiet), link)
+
+    raise typer.Exit(supervised(context, work, memory_limit))

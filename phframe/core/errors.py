@@ -104,6 +104,10 @@ class PluginError(PhframeError):
     """A plugin that does not load or does not keep to its interface."""
 
 
+class PartFailedError(PluginError):
+    """A part of a run, or code that one called, raised an exception or asked to exit; its cause says where."""
+
+
 class IncompatibleError(InputError):
     """Parts that exist but cannot be used together, such as an arm and a backend."""
 
@@ -130,3 +134,10 @@ class SimulationDivergedError(PhframeError):
 
 class BudgetExceededError(PhframeError):
     """A planner asked for more simulated time, or more simulations, than its budget holds."""
+
+
+class OverdueError(BudgetExceededError):
+    """The time is over while a simulation, or what a planner does between two of them, goes on."""
+
+    def __init__(self) -> None:
+        super().__init__("the time is over: it was stopped in the middle of what it did")

@@ -64,8 +64,11 @@ class NewFile:
                 self.close()
                 raise
 
-    def put(self) -> None:
+    def put(self, *, synchronise: bool = True) -> None:
         """Put what was written in its place.
+
+        Args:
+            synchronise: Whether the content is to be on the disk before the name is; else it is the system that sees to it.
 
         Raises:
             InputError: If that is not possible; the temporary file is gone, and what was there before is still there.
@@ -74,7 +77,8 @@ class NewFile:
             if self._into:
                 _pour(self.part, self._place)
                 return
-            _synchronise(self.part)
+            if synchronise:
+                _synchronise(self.part)
             if self._before is not None:
                 _take_after(self.part, self._before)
             if self._overwrite:

@@ -100,6 +100,7 @@ class Task:
     ) -> None:
         self.scene, self.start, self.goal, self.arm = scene, start, goal, arm
         self.rejected, self.earlier, self.rng, self.budget = rejected, earlier, rng, budget
+        self._limits = replace(budget)
         self._confirm, self._sample = confirm, sample
         self._apply, self._apply_many, self._topology = apply, apply_many, topology
         self._reach, self._steered, self._begin_steering = reach, steered, begin_steering
@@ -276,11 +277,11 @@ class Task:
     @property
     def simulations_left(self) -> int | None:
         """How many actions may still be simulated; None: any number."""
-        limit = self.budget.simulations
+        limit = self._limits.simulations
         return None if limit is None else limit - self._cost.simulated_actions
 
     def _spend(self, simulations: int) -> None:
-        budget, left = self.budget, self.simulations_left
+        budget, left = self._limits, self.simulations_left
         if self.elapsed > budget.seconds:
             raise BudgetExceededError(f"the time limit of {budget.seconds:g} s is used up")
         if left is not None and simulations > left:

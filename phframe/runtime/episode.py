@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -33,7 +35,10 @@ from phframe.core import (
     Watch,
 )
 from phframe.core.episode import MOVED
+from phframe.core.errors import BudgetExceededError
 from phframe.runtime.aids import Aids
+from phframe.runtime.blame import blamed, said_by
+from phframe.runtime.border import ask_planner
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import MountedArm, Observer
 from phframe.runtime.planning_world import PlanningWorld
@@ -42,6 +47,10 @@ from phframe.runtime.versions import versions_of
 
 FRAME_PERIOD = 1.0 / 30.0
 """Of the world's time, between the moments that observers are shown (s)."""
+LEAST_TO_ACT = 60.0
+"""Wall time that carrying out may take at least, all actions together (s); at most it is as long as planning may."""
+UNFINISHED = "unfinished: this is what there was of it when it was written down last"
+"""Why an episode got no farther, in a file that was written while it ran."""
 
 
 def run_episode(
@@ -97,20 +106,33 @@ class _Run:
         self._plans: list[Plan] = []
         self._steps: list[Step] = []
         self._rejections: tuple[Rejection, ...] = ()
+        self._rejected_in: list[State] = []
         self._state = self._seen = self._scene.initial_state()
+        self._versions = versions_of(spec)
+        self._acted = 0.0
 
     def episode(self) -> Episode:
         arm = MountedArm(self._execution.arm, self._execution.base_pose, self._execution.by_joints)
         self._tell(lambda observer: observer.begin(self._scene, self._spec, arm))
         try:
+            self._progress()
             self._note(self._execution.start())
             episode = self._so_far(*self._outcome())
-        except KeyboardInterrupt:
-            partial = self._so_far(Status.FAILED, "interrupted by Ctrl-C")
+        except BaseException as error:
+            told = blamed(error, self._spec)
+            reason = "interrupted by Ctrl-C" if isinstance(error, KeyboardInterrupt) else said_by(told)
+            partial = self._so_far(Status.FAILED, reason)
             self._tell(lambda observer: observer.interrupted(partial))
-            raise
+            if told is error:
+                raise
+            raise told from error
         self._tell(lambda observer: observer.finished(episode))
         return episode
+
+    def _progress(self) -> None:
+        """Show what there is so far."""
+        partial = self._so_far(Status.FAILED, UNFINISHED)
+        self._tell(lambda observer: observer.progressed(partial))
 
     def _so_far(self, status: Status, reason: str) -> Episode:
         return Episode(
@@ -122,7 +144,7 @@ class _Run:
             tuple(self._steps),
             self._rejections,
             self._execution.motion_planning_time + self._motion_planning_within,
-            versions_of(self._spec),
+            self._versions,
         )
 
     def _note(self, state: State) -> None:
@@ -130,11 +152,13 @@ class _Run:
         self._state, self._seen = state, self._see(state)
 
     def _outcome(self) -> tuple[Status, str]:
-        """How it went; a simulation that diverges is an outcome, too."""
+        """How it went; a simulation that diverges is an outcome, too, and so is a limit."""
         try:
             return self._loop_until_done()
         except SimulationDivergedError as error:
             return Status.FAILED, str(error)
+        except BudgetExceededError as error:
+            return Status.TIMEOUT, str(error)
 
     def _loop_until_done(self) -> tuple[Status, str]:
         """Plan and carry out until the goal is met or there is no reason to try again."""
@@ -156,6 +180,7 @@ class _Run:
 
     def _assess(self) -> Assessment:
         """What the goal makes of the world as it is."""
+        self._tell(lambda observer: observer.acting(LEAST_TO_ACT))
         last = self._steps[-1] if self._steps else None
         attempt = None if last is None else Attempt(last.action, last.motion, last.trajectory)
         return self._goal.assess(self._scene, self._state, attempt)
@@ -182,11 +207,13 @@ class _Run:
             object_reach=self._execution.out_of_reach,
             advisor=self._aids.advisor,
         )
-        plan = self._planner.plan(task)
+        self._tell(lambda observer: observer.planning(task.budget.seconds))
+        plan = ask_planner(self._planner, task)
         within = self._motion_planning_within - before
         plan = replace(plan, cost=replace(plan.cost, motion_planning=plan.cost.motion_planning + within))
         self._plans.append(plan)
         self._tell(lambda observer: observer.planned(plan))
+        self._progress()
         return plan
 
     @property
@@ -215,7 +242,8 @@ class _Run:
         ):
             aimed = self._aimed(action, before)
             last = number == len(plan.actions)
-            if problem := self._step(aimed, expected, decision) or self._shortfall(aimed, expected, last=last):
+            problem = self._came_to_nothing(aimed) or self._step(aimed, expected, decision)
+            if problem := problem or self._shortfall(aimed, expected, last=last):
                 return problem
             before = expected
         return ""
@@ -248,25 +276,54 @@ class _Run:
 
     def _reject(self, action: Action, reason: str, unreachable: Unreachable | None = None) -> None:
         self._rejections = (*self._rejections, Rejection(action, reason, unreachable, len(self._plans) - 1))
+        self._rejected_in.append(self._state)
+
+    def _came_to_nothing(self, action: Action) -> str:
+        """Why an action is not done once more: it came to nothing before, and nothing has moved since."""
+        for rejection, then in zip(self._rejections, self._rejected_in, strict=True):
+            if rejection.action.resembles(action) and (self._state.displacement(then) <= MOVED).all():
+                return f"{rejection.reason}; the planner proposes the same again: {action.name}"
+        return ""
 
     def _step(self, action: Action, expected: State, decision: Decision) -> str:
         """Carry out one action; why not, where the arm cannot."""
         before = self._state
-        trajectory = self._execution.plan_trajectory(self._seen, action)
+        frames: list[tuple[float, State]] = []
+        with self._timed():
+            trajectory = self._execution.plan_trajectory(self._seen, action)
+            if not isinstance(trajectory, Unreachable):
+                watch = Watch(FRAME_PERIOD, lambda at, state: frames.append((at, state))) if self._observers else None
+                motion = self._execution.execute(trajectory, watch)
+                self._note(self._execution.observe())
         if isinstance(trajectory, Unreachable):
             problem = f"the arm cannot do {action.name}: {trajectory.why}"
             self._reject(action, problem, trajectory)
             return problem
-        frames: list[tuple[float, State]] = []
-        watch = Watch(FRAME_PERIOD, lambda time, state: frames.append((time, state))) if self._observers else None
-        motion = self._execution.execute(trajectory, watch)
-        self._note(self._execution.observe())
         seen = None if self._seen is self._state else self._seen
         plan = len(self._plans) - 1
         step = Step(action, trajectory, before, self._state, expected, motion, decision, plan, seen)
         self._steps.append(step)
         self._tell(lambda observer: observer.stepped(step, frames))
+        self._progress()
         return ""
+
+    @contextmanager
+    def _timed(self) -> Iterator[None]:
+        """Count what carrying out takes, and begin nothing once it has taken too long.
+
+        Raises:
+            BudgetExceededError: If it has.
+        """
+        limit = max(LEAST_TO_ACT, self._loop.time_limit)
+        left = limit - self._acted
+        if left <= 0.0:
+            raise BudgetExceededError(f"carrying out took longer than {limit:g} s")
+        self._tell(lambda observer: observer.acting(left))
+        began = time.perf_counter()
+        try:
+            yield
+        finally:
+            self._acted += time.perf_counter() - began
 
     def _deviation(self, expected: State, action: Action) -> str:
         """What is not where it was expected, if anything; of what lay before, engines in the plane know no better."""

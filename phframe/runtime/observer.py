@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from phframe.core import ArmModel, ArmShape, BasePose, Episode, Plan, RunSpec, Scene, State, Step
 
@@ -35,23 +35,35 @@ class MountedArm:
 class Observer:
     """Told of what happens, in this order; each method does nothing unless it is overridden."""
 
+    title: ClassVar[str] = ""
+    """What it is called when it fails; empty: as its class."""
+
     def mounting(self, done: int, of: int) -> None:
         """So many of so many base poses have been looked at, before an episode whose arm is to be mounted for the scene."""
 
     def begin(self, scene: Scene, spec: RunSpec, arm: MountedArm) -> None:
         """An episode begins."""
 
+    def planning(self, seconds: float) -> None:
+        """The planner is asked, the first time or again; it may take so long."""
+
     def planned(self, plan: Plan) -> None:
         """The planner returned a plan, the first or a replan."""
 
+    def acting(self, seconds: float) -> None:
+        """An action is about to be carried out; it may take so long of wall time."""
+
     def stepped(self, step: Step, frames: Frames) -> None:
         """An action was carried out."""
+
+    def progressed(self, episode: Episode) -> None:
+        """What there is of the episode: as it begins, and after every plan and every action."""
 
     def finished(self, episode: Episode) -> None:
         """The episode is over."""
 
     def interrupted(self, episode: Episode) -> None:
-        """The episode was interrupted by Ctrl-C: what there is of it. It goes no further."""
+        """The episode ended early, by Ctrl-C or an error: what there is of it. It goes no further."""
 
     def close(self) -> None:
         """Nothing more will come, whether the episode is over or was interrupted."""

@@ -22,10 +22,14 @@ from phframe.core import (
 from phframe.core.run_spec import PARTS
 from phframe.registry import Kind, create, identify, load, refuse_stored_code
 from phframe.runtime.aids import Aids
+from phframe.runtime.audience import Audience, ObserverError
+from phframe.runtime.blame import blaming
+from phframe.runtime.border import copied_scene, guarded_goal
 from phframe.runtime.confirmation import Confirmation
 from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
-from phframe.runtime.mounting import Told, mounted
+from phframe.runtime.guarded_topology import guarded_topology
+from phframe.runtime.mounting import mounted
 from phframe.runtime.noise import Noise
 from phframe.runtime.observer import Observer
 from phframe.runtime.particles import Particles
@@ -50,11 +54,20 @@ def run(
 
     Raises:
         PhframeError: If a name, an option or the scene cannot be used. What cannot be planned is a status, not an error.
+        PartFailedError: If a part that is not phframe's own raised; observers were told what there is of the episode.
+        ObserverError: If an observer failed; it has the episode, which is whole.
     """
+    audience = Audience(observers)
+    with audience, blaming(spec):
+        episode = _carried_out(spec, audience, advisor)
+    if audience.failures:
+        raise ObserverError("; ".join(audience.failures), episode)
+    return episode
+
+
+def _carried_out(spec: RunSpec, audience: Audience, advisor: Advisor) -> Episode:
     with ExitStack() as stack:
-        for observer in observers:
-            stack.callback(observer.close)
-        ready = prepare(mounted(spec, _teller(observers)))
+        ready = prepare(mounted(spec, audience.mounting))
         planning = stack.enter_context(PlanningWorld(ready.plan_world, spec.workers))
         execution = stack.enter_context(ExecutionWorld(ready.world))
         shape = execution.arm.shape
@@ -70,18 +83,10 @@ def run(
             execution,
             ready.goal,
             ready.spec,
-            observers,
+            () if audience.is_empty else (audience,),
             sensor,
             Aids(advisor, confirmation, particles),
         )
-
-
-def _teller(observers: Sequence[Observer]) -> Told:
-    def told(done: int, of: int) -> None:
-        for observer in observers:
-            observer.mounting(done, of)
-
-    return told
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +124,8 @@ def prepare(spec: RunSpec) -> Prepared:
     scene, noise = find_scene(spec.scene, spec.options.get("scenes")), Noise.of(spec.noise)
     parts = _identified(spec)
     made = {part: create(_kind(part), *parts[part]) for part in ("planner", "topology", "goal")}
-    made["planner"].check(scene)
+    made["planner"].check(copied_scene(made["planner"], scene))
+    made["topology"], made["goal"] = guarded_topology(made["topology"]), guarded_goal(made["goal"])
     world = WorldSpec(scene, parts["backend"][0], parts["arm"][0], parts["backend"][1], parts["arm"][1])
     plan_world, inherited = _plan_world(world, parts)
     stored = {part: _differing(_kind(part), *parts[part], {}) for part in PARTS if not part.startswith("plan_")}

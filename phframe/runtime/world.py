@@ -37,6 +37,8 @@ from phframe.core import (
 from phframe.core.arm import LEAST_SERVED
 from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.registry import Kind, load
+from phframe.runtime.border import check_arm, copied_scene
+from phframe.runtime.guarded_physics import guarded
 from phframe.runtime.mounting import arm_in
 
 APPROACH_SPEED = 0.5
@@ -93,7 +95,9 @@ class World:
         if backend.executes is JointTrajectory:
             self._motion_planner = motion_planner_of(self.arm, spec.scene, self.base_pose)
         self.motion_planning_time = 0.0
-        self.physics: Physics[Any] = backend(spec.scene, self.arm, self.base_pose, options)
+        check_arm(self.arm, spec.arm)
+        made = backend(copied_scene(backend, spec.scene), self.arm, self.base_pose, options)
+        self.physics: Physics[Any] = guarded(made, spec.scene, spec.backend)
         self.home = self.arm.gripper_pose(self.arm.home, self.base_pose)
         self._refuse_misfit()
 

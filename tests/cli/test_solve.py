@@ -93,20 +93,36 @@ def test_any_other_outcome_is_exit_code_1_with_its_reason(invoke: Invoke) -> Non
     assert json.loads(Path("here/summary.json").read_text())["status"] == "failed"
 
 
-def test_an_internal_error_is_one_line_and_the_traceback_is_kept(
+def test_an_error_in_a_planner_is_one_line_and_its_traceback_and_the_episode_are_kept(
     invoke: Invoke, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Path("mine.py").write_text(GIVES_UP)
     arguments = ("solve", "--planner", "./mine.py:Breaks", "--no-rerun", "--json")
     result = invoke(*arguments)
-    assert (result.exit_code, result.stdout) == (70, "")
-    assert result.stderr.startswith("error: internal: RuntimeError: never meant to be")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith("error: planner './mine.py:Breaks' raised RuntimeError: never meant to be (line ")
     assert result.stderr.count("\n") == 1
     kept = result.stderr.partition("the traceback is in ")[2].partition(";")[0]
     assert "mine.py" in Path(kept).read_text()
+    [folder] = Path("runs").iterdir()
+    assert result.stderr.endswith(f"; what was done until then is in {folder}\n")
+    assert "never meant to be" in _episode(folder).reason
     monkeypatch.setenv("PHFRAME_DEBUG", "1")
     assert "Traceback (most recent call last)" in invoke(*arguments).stderr
-    assert not Path("runs").exists() or list(Path("runs").iterdir()) == []
+
+
+def test_an_internal_error_is_one_line_and_the_traceback_is_kept(
+    invoke: Invoke, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def breaks(*_: object) -> None:
+        raise RuntimeError("never meant to be")
+
+    monkeypatch.setattr("phframe.planners.phia.PHIA.search", breaks)
+    result = invoke("solve", "--no-rerun", "--json")
+    assert (result.exit_code, result.stdout) == (70, "")
+    assert result.stderr.startswith("error: internal: RuntimeError: never meant to be")
+    assert result.stderr.count("\n") == 1
+    assert "test_solve.py" in Path(result.stderr.partition("the traceback is in ")[2].partition(";")[0]).read_text()
 
 
 def test_options_reach_their_parts(invoke: Invoke) -> None:

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from phframe.core import Episode, PhframeError, Status
+from phframe.core import Episode, InputError, PhframeError, Status
 from phframe.planners.phia import PHIA
+from phframe.runtime.audience import ObserverError
 from phframe.runtime.observer import Frames, Observer
 from phframe.runtime.solve import solve
 from phframe.runtime.world import WorldSpec
@@ -85,23 +86,33 @@ def test_observers_change_nothing() -> None:
 
 
 @pytest.mark.parametrize("when", ["begin", "planned", "stepped", "finished"])
-@pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
-def test_all_are_closed_when_one_is_interrupted(when: str, error: type[BaseException]) -> None:
-    one, other = Diary(when, error), Diary()
-    with pytest.raises(error):
+def test_all_are_closed_when_one_is_interrupted(when: str) -> None:
+    one, other = Diary(when), Diary()
+    with pytest.raises(KeyboardInterrupt):
         solve(BASIC, observers=[one, other])
     assert one.words[-2:] == [when, "close"]
     assert other.words[-1] == "close"
     assert (one.words.count("close"), other.words.count("close")) == (1, 1)
 
 
-def test_all_are_closed_although_one_cannot_be() -> None:
-    broken, other = Diary("close", RuntimeError), Diary()
-    with pytest.raises(RuntimeError):
-        solve(BASIC, observers=[other, broken])
-    with pytest.raises(RuntimeError):
+@pytest.mark.parametrize("when", ["begin", "planned", "stepped", "finished", "close"])
+@pytest.mark.parametrize("error", [RuntimeError, OSError, SystemExit])
+def test_one_that_fails_costs_neither_the_episode_nor_the_others(when: str, error: type[BaseException]) -> None:
+    broken, other, undisturbed = Diary(when, error), Diary(), Diary()
+    expected = solve(BASIC, observers=[undisturbed])
+    with pytest.raises(ObserverError, match=f"Diary failed: {error.__name__}: {when}") as failed:
         solve(BASIC, observers=[broken, other])
-    assert other.words.count("close") == 2
+    assert failed.value.episode == expected
+    assert other.words == undisturbed.words
+    assert broken.words.count(when) == 1
+    assert broken.words[-1] == "close"
+
+
+def test_one_that_cannot_begin_says_so_before_anything_is_done() -> None:
+    broken, other = Diary("begin", InputError), Diary()
+    with pytest.raises(InputError, match="begin"):
+        solve(BASIC, observers=[other, broken])
+    assert other.words == ["begin", "close"]
 
 
 @pytest.mark.parametrize(

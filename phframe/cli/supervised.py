@@ -1,0 +1,131 @@
+"""Has a command carried out in a child process, with a watchdog beside it that what runs in there cannot reach."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from phframe.cli.console import note
+from phframe.cli.exit_codes import ExitCode
+from phframe.cli.failures import report
+from phframe.cli.interrupt import EndSignals
+
+SUPERVISED = "supervised"
+"""Object of the top context where a command is a process of its own, so that it may fork."""
+LOADING = 300.0
+"""For what comes before planning: finding the parts, building the worlds, choosing where an arm stands (s)."""
+_PR_SET_PDEATHSIG = 1
+
+
+class WatchdogLink:
+    """What the child tells the watchdog. Without one nobody is told.
+
+    Args:
+        writer: The end of the pipe to write to; None: there is no watchdog.
+    """
+
+    def __init__(self, writer: int | None = None) -> None:
+        self._writer, self._limited = writer, False
+        self.signals = EndSignals(self._overdue)
+
+    def limit(self, seconds: float | None, what: str = "") -> None:
+        """Say how long what begins now may take; None: as long as it likes."""
+        self._limited = seconds is not None
+        self._tell({"limit": seconds, "what": what})
+
+    def folder(self, path: Path) -> None:
+        """Say where the files of the run are."""
+        self._tell({"folder": str(path)})
+
+    def video(self, path: Path) -> None:
+        """Say which video is being made."""
+        self._tell({"video": str(path.resolve())})
+
+    def ended(self, code: int) -> None:
+        """Say that all is done and told, and how it went."""
+        self._limited = False
+        self._tell({"ended": int(code)})
+
+    def _tell(self, what: dict[str, Any]) -> None:
+        if self._writer is not None:
+            with suppress(OSError):
+                os.write(self._writer, json.dumps(what).encode() + b"\n")
+
+    def _overdue(self) -> None:
+        if self._limited:
+            self._limited = False
+            from phframe.core.errors import OverdueError
+
+            raise OverdueError
+
+
+def supervised(context: typer.Context, work: Callable[[WatchdogLink], int], memory: int | None = None) -> int:
+    """Do something in a child process under a watchdog, where the command runs on its own and the system can fork.
+
+    Args:
+        context: Of the command.
+        work: What is done; it is given what the watchdog is told by, and returns the exit code.
+        memory: That it may have in use (MB); None: any.
+
+    Returns:
+        The exit code.
+    """
+    if context.find_root().obj is not SUPERVISED or not hasattr(os, "fork"):
+        return work(WatchdogLink())
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
+    (reader, writer), parent = os.pipe(), os.getpid()
+    try:
+        child = os.fork()
+    except OSError:  # no process is to be had: without a watchdog, then
+        return work(WatchdogLink())
+    if child:
+        from phframe.cli.watchdog import Watchdog
+
+        os.close(writer)
+        os.set_blocking(reader, False)
+        return Watchdog(child, reader, memory).wait()
+    os.close(reader)
+    link = WatchdogLink(writer)
+    link.signals.install()
+    _end_with(parent)
+    link.limit(LOADING, "loading")
+    code = _code_of(work, link)
+    link.ended(code)
+    return code
+
+
+def _code_of(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
+    """What the command ends with, its errors told."""
+    try:
+        return work(link)
+    except (KeyboardInterrupt, typer.Abort):
+        note("interrupted")
+        return ExitCode.INTERRUPTED
+    except typer.Exit as error:
+        return error.exit_code
+    except Exception as error:  # noqa: BLE001 - nobody is to see a traceback
+        return report(error)
+    finally:
+        if sys.stdout is not None:
+            with suppress(OSError, ValueError):
+                sys.stdout.flush()
+
+
+def _end_with(parent: int) -> None:
+    """Have this process told to terminate when the watchdog ends, so that nothing runs on unwatched."""
+    if sys.platform == "linux":
+        import ctypes  # numpy does it anyway, but not in the watchdog
+
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, int(signal.SIGTERM), 0, 0, 0)
+        if os.getppid() != parent:
+            raise KeyboardInterrupt
