@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection
-from importlib import metadata
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 if TYPE_CHECKING:
     from phframe.registry import Entry
-
-_GROUP = "phframe"
 
 
 def names(own: Collection[str]) -> list[str]:
@@ -52,7 +49,7 @@ def load_command(name: str, own: Collection[str]) -> Any:
 
 def _entries() -> tuple[Entry, ...]:
     """The registered commands. The registry is imported only if any plugin is to be loaded."""
-    if os.environ.get("PHFRAME_PLUGINS", "all").strip() == "" or not metadata.entry_points(group=_GROUP):
+    if os.environ.get("PHFRAME_PLUGINS", "all").strip() == "":
         return ()
     from phframe.core.errors import PhframeError
     from phframe.registry import Kind, catalogue

@@ -1,0 +1,84 @@
+"""What a distribution answers when it is asked what it offers: as JSON, which is checked like any foreign file."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from phframe.core.errors import PluginError, error_text
+from phframe.registry.extension import API_VERSION, Extension
+
+MOST_EXTENSIONS = 1000
+"""That one distribution may offer."""
+MOST_BYTES = 1 << 20
+"""Of an answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a distribution offers, or why that is not known.
+
+    Attributes:
+        extensions: What it offers.
+        error: What is wrong with it, in a line; empty: nothing.
+        files: The files whose code was run to find out.
+        hasty: Whether the reason may be gone at the next attempt, because it is the time that it took.
+    """
+
+    extensions: tuple[Extension, ...] = ()
+    error: str = ""
+    files: tuple[str, ...] = ()
+    hasty: bool = False
+
+
+def to_json(answer: Answer) -> str:
+    """The answer as a line of JSON."""
+    return json.dumps(asdict(answer))
+
+
+def from_json(text: str | bytes) -> Answer:
+    """An answer that somebody wrote. One that breaks the rules becomes the reason why it is not taken."""
+    try:
+        if len(text) > MOST_BYTES:
+            raise PluginError(f"its answer is longer than {MOST_BYTES >> 10} KB")
+        given = json.loads(text)
+        offered = _accepted([_extension(each) for each in given["extensions"]])
+        files = tuple(str(each) for each in given["files"])
+        return Answer(() if given["error"] else offered, str(given["error"]), files, bool(given["hasty"]))
+    except PluginError as error:
+        return Answer(error=str(error))
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        return Answer(error=f"its answer cannot be read: {error_text(error)}")
+
+
+def _extension(given: Mapping[str, Any]) -> Extension:
+    tuples = {"uses": tuple(given["uses"]), "variants": tuple((key, text) for key, text in given["variants"])}
+    return Extension(**{**given, **tuples})
+
+
+def _accepted(extensions: list[Extension]) -> tuple[Extension, ...]:
+    if len(extensions) > MOST_EXTENSIONS:
+        raise PluginError(f"it offers {len(extensions)} extensions; one distribution may offer {MOST_EXTENSIONS}")
+    for extension in extensions:
+        if extension.api_version != API_VERSION:
+            raise PluginError(_other_version(extension))
+    counts = Counter(f"{extension.kind} {extension.name!r}" for extension in extensions)
+    if twice := sorted(name for name, count in counts.items() if count > 1):
+        raise PluginError(f"it offers two of the same name: {', '.join(twice[:10])}")
+    return tuple(extensions)
+
+
+def _other_version(extension: Extension) -> str:
+    """What to do about an extension for another version of the interfaces."""
+    remedy = (
+        "upgrade phframe"
+        if extension.api_version > API_VERSION
+        else f"docs/migration.md says what to change in it, and that its api_version is then {API_VERSION}"
+    )
+    return (
+        f"{extension.kind} {extension.name!r} is for version {extension.api_version} of phframe's interfaces;"
+        f" this phframe has version {API_VERSION}: {remedy}"
+    )

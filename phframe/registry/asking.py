@@ -1,0 +1,122 @@
+"""Asks distributions what they offer, each in a process of its own that is bounded in time and memory, several at once."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from phframe.registry.answer import MOST_BYTES, Answer, from_json
+from phframe.registry.distributions import PluginDistribution
+
+SECONDS = 10.0
+"""That a distribution may take to answer (wall time)."""
+MEMORY = 2 << 30
+"""That it may use for it (bytes)."""
+_AT_ONCE = max(1, min(4, os.cpu_count() or 1))
+_LOOK_AGAIN = 0.004  # seconds
+_ASK = (
+    "import json, sys; request = json.loads(sys.argv[1]); sys.path[:] = request['path']; "
+    "from phframe.registry.answering import main; main(request)"
+)
+_ALONE = {"PHFRAME_PLUGINS": "", **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")}
+"""Of the environment: one that asks for the catalogue itself asks nobody, and memory is not spent on threads."""
+
+
+def ask_all(asked: Sequence[PluginDistribution], seconds: float = SECONDS, memory: int = MEMORY) -> list[Answer]:
+    """What each distribution answers, in their order. None of their code runs in this process.
+
+    Args:
+        asked: The distributions.
+        seconds: That each may take.
+        memory: That each may use (bytes).
+    """
+    answers: dict[int, Answer] = {}
+    waiting = list(enumerate(asked))[::-1]
+    running: dict[int, _Conversation] = {}
+    with tempfile.TemporaryDirectory(prefix="phframe-", ignore_cleanup_errors=True) as folder, _ended(running):
+        while waiting or running:
+            while waiting and len(running) < _AT_ONCE:
+                number, each = waiting.pop()
+                running[number] = _Conversation(each, Path(folder, str(number)), seconds, memory)
+            for number in [number for number, each in running.items() if each.is_over()]:
+                answers[number] = running.pop(number).answer()
+            time.sleep(_LOOK_AGAIN if running else 0)
+    return [answers[number] for number in range(len(asked))]
+
+
+class _Conversation:
+    """One distribution being asked."""
+
+    def __init__(self, asked: PluginDistribution, folder: Path, seconds: float, memory: int) -> None:
+        folder.mkdir()
+        self._file, self._seconds = folder / "answer.json", seconds
+        request = {
+            "hooks": asked.hooks,
+            "answer": str(self._file),
+            "memory": memory,
+            "seconds": seconds,
+            "path": _path(),
+        }
+        self._until = time.monotonic() + seconds
+        nothing = subprocess.DEVNULL
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-c", _ASK, json.dumps(request)],
+            stdin=nothing, stdout=nothing, stderr=nothing, cwd=folder, env={**os.environ, **_ALONE}, start_new_session=True,
+        )  # fmt: skip
+
+    def is_over(self) -> bool:
+        """Whether there is no more to wait for."""
+        return self._process.poll() is not None or self._file.is_file() or time.monotonic() > self._until
+
+    def answer(self) -> Answer:
+        """What was answered; the process and what it has started end now."""
+        code = self._process.poll()
+        self.end()
+        if not self._file.is_file():
+            return self._silence(code)
+        with self._file.open("rb") as file:
+            return from_json(file.read(MOST_BYTES + 1))
+
+    def end(self) -> None:
+        """End the process, and what it has started. It may have ended already."""
+        with suppress(OSError):
+            getattr(os, "killpg", os.kill)(self._process.pid, getattr(signal, "SIGKILL", signal.SIGTERM))
+        self._process.kill()
+        self._process.wait()
+
+    def _silence(self, code: int | None) -> Answer:
+        if code is None:
+            return Answer(error=f"asked what it offers, it gave no answer within {self._seconds:g} s", hasty=True)
+        how = f"with exit code {code}" if code >= 0 else f"by the signal {_signal(-code)}"
+        return Answer(error=f"asked what it offers, it ended the process {how}")
+
+
+def _signal(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return str(number)
+
+
+def _path() -> list[str]:
+    """Where modules are looked for: as here, but not in the working directory, whichever it is; phframe itself at the end."""
+    home = str(Path(__file__).parents[2])
+    path = [os.path.abspath(str(each)) for each in sys.path if each]  # noqa: PTH100 - not resolved
+    return path if home in path else [*path, home]
+
+
+@contextmanager
+def _ended(running: Mapping[int, _Conversation]) -> Iterator[None]:
+    try:
+        yield
+    finally:
+        for each in running.values():
+            each.end()
