@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout, suppress
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
@@ -20,14 +24,14 @@ def note(text: str) -> None:
 
 def emit(text: str) -> None:
     """The result, as text."""
-    _write(sys.stdout, text)
+    _write(_results(), text)
 
 
 def show(what: RenderableType) -> None:
     """The result, as a table or another picture of it."""
     from rich.console import Console
 
-    console = Console(highlight=False)
+    console = Console(highlight=False, file=_results())
     if not console.is_terminal:
         console.width = _columns()
     with console.capture() as capture:
@@ -46,6 +50,62 @@ def leave(stream: TextIO) -> None:
     """Let what is still to be written to a stream that takes no more vanish."""
     with open(os.devnull, "wb") as nowhere:  # noqa: PTH123 - os.devnull is no path on every system
         os.dup2(nowhere.fileno(), stream.fileno())
+
+
+def reserve_output() -> None:
+    """Keep standard output for ``sys.stdout`` from now on.
+
+    What else writes to it, as do libraries in C and processes that are started, writes to standard error.
+    """
+    own = _copy_of(1)
+    _lead(1, 2)
+    if own is not None and sys.stdout is not None:
+        encoding, errors = sys.stdout.encoding, sys.stdout.errors
+        sys.stdout = os.fdopen(own, "w", 1 if os.isatty(own) else -1, encoding=encoding, errors=errors)
+
+
+def release_output() -> None:
+    """Undo ``reserve_output`` for a command whose output is the result, whatever writes it."""
+    with suppress(AttributeError, io.UnsupportedOperation, OSError):  # there is none, or it is no file
+        _lead(1, sys.stdout.fileno())
+
+
+@contextmanager
+def results_only() -> Iterator[None]:
+    """Meanwhile ``emit`` and ``show`` alone write to standard output; what else is printed goes to standard error."""
+    before = _RESULTS.set(_results())
+    try:
+        with redirect_stdout(sys.stderr):
+            yield
+    finally:
+        _RESULTS.reset(before)
+
+
+_RESULTS: ContextVar[TextIO | None] = ContextVar("results", default=None)
+"""Where results go while ``sys.stdout`` leads elsewhere."""
+
+
+def _results() -> TextIO:
+    return _RESULTS.get() or sys.stdout
+
+
+def _copy_of(descriptor: int) -> int | None:
+    """Another descriptor of the same file, which processes that are started do not have; None: it is closed."""
+    try:
+        return os.dup(descriptor)
+    except OSError:
+        return None
+
+
+def _lead(descriptor: int, to: int) -> None:
+    """Make a descriptor one of another's file; of none, if that is closed."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(to, descriptor)
+    except OSError:
+        os.dup2(nowhere, descriptor)
+    if nowhere != descriptor:
+        os.close(nowhere)
 
 
 def _columns() -> int:

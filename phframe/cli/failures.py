@@ -17,7 +17,7 @@ DEBUG = "PHFRAME_DEBUG"
 """Environment variable: 1 shows the traceback of every error."""
 
 
-def report(error: Exception) -> int:
+def report(error: BaseException) -> int:
     """Say in one line on standard error what went wrong.
 
     Returns:
@@ -33,10 +33,16 @@ def report(error: Exception) -> int:
     return code
 
 
-def _described(error: Exception) -> tuple[str, int]:
+def _described(error: BaseException) -> tuple[str, int]:
     if hasattr(error, "format_message"):  # of the option parser
         return _usage(error), ExitCode.BAD_INPUT
-    from phframe.core.errors import BudgetExceededError, NotInstalledError, PhframeError, SimulationDivergedError
+    from phframe.core.errors import (
+        BudgetExceededError,
+        NotInstalledError,
+        PhframeError,
+        SimulationDivergedError,
+        error_text,
+    )
 
     if isinstance(error, NotInstalledError):
         return str(error), ExitCode.NOT_INSTALLED
@@ -44,7 +50,7 @@ def _described(error: Exception) -> tuple[str, int]:
         return str(error), ExitCode.OTHER_OUTCOME
     if isinstance(error, PhframeError):
         return str(error), ExitCode.BAD_INPUT
-    return f"internal: {type(error).__name__}: {error} ({_place_of_traceback(error)})", ExitCode.INTERNAL_ERROR
+    return f"internal: {error_text(error)} ({_place_of_traceback(error)})", ExitCode.INTERNAL_ERROR
 
 
 def _usage(error: Any) -> str:
@@ -67,7 +73,7 @@ def _in_a_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def _place_of_traceback(error: Exception) -> str:
+def _place_of_traceback(error: BaseException) -> str:
     if os.environ.get(DEBUG) == "1":
         return "the traceback is above"
     try:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from phframe.cli.console import release_output, results_only
+
 if TYPE_CHECKING:
     from phframe.registry import Entry
 
@@ -19,10 +21,8 @@ def names(own: Collection[str]) -> list[str]:
 
 def summary(name: str) -> Any:
     """A stand-in for a plugin's command that says what it does; None if there is no such command."""
-    for entry in _entries():
-        if name in (entry.name, entry.qualified_name):
-            return _as_command(lambda: None, name, entry.extension.summary)
-    return None
+    entry = _entry(name)
+    return _as_command(lambda: None, name, entry.extension.summary) if entry else None
 
 
 def load_command(name: str, own: Collection[str]) -> Any:
@@ -39,12 +39,31 @@ def load_command(name: str, own: Collection[str]) -> Any:
     from phframe.core.errors import PluginError, UnknownNameError
     from phframe.registry import Kind, load
 
-    if not any(name in (entry.name, entry.qualified_name) for entry in _entries()):
+    if _entry(name) is None:
         raise UnknownNameError("command", name, [*own, *names(own)], "See 'phframe --help'.")
-    loaded = load(Kind.COMMAND, name)
+    with results_only():
+        loaded = load(Kind.COMMAND, name)
     if not callable(loaded):
         raise PluginError(f"command {name!r} is neither a function nor a typer.Typer")
+    release_output()
     return _as_command(loaded, name)
+
+
+def failure(name: str, error: Exception) -> Exception | None:
+    """Who raised what, if a plugin's command raised an exception that is not meant to be told as it is; else None."""
+    from phframe.core.errors import PhframeError, PluginError, error_text
+
+    entry = _entry(name)
+    meant = isinstance(error, PhframeError | BrokenPipeError | typer.Exit | typer.Abort) or hasattr(
+        error, "format_message"
+    )
+    if entry is None or meant:
+        return None
+    return PluginError(f"command {name!r} of {entry.distribution} {entry.version} failed: {error_text(error)}")
+
+
+def _entry(name: str) -> Entry | None:
+    return next((each for each in _entries() if name in (each.name, each.qualified_name)), None)
 
 
 def _entries() -> tuple[Entry, ...]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from phframe.core.everything import *
+    from phframe.core.everything import *  # noqa: F403 - its __all__ lists them
 
 
 def __getattr__(name: str) -> Any:

@@ -13,7 +13,10 @@ from phframe.registry.extension import API_VERSION, Extension
 
 MOST_EXTENSIONS = 1000
 """That one distribution may offer."""
-MOST_BYTES = 1 << 20
+MOST_NAMES = 10_000
+"""Of scenes that a suite may list."""
+_LONGEST_NAME = 200
+MOST_BYTES = 4 << 20
 """Of an answer."""
 
 
@@ -23,6 +26,7 @@ class Answer:
 
     Attributes:
         extensions: What it offers.
+        names: Of scenes, where it was asked for those of a suite.
         error: What is wrong with it, in a line; empty: nothing.
         files: The files whose code was run to find out.
         hasty: Whether the reason may be gone at the next attempt, because it is the time that it took.
@@ -32,6 +36,7 @@ class Answer:
     error: str = ""
     files: tuple[str, ...] = ()
     hasty: bool = False
+    names: tuple[str, ...] = ()
 
 
 def to_json(answer: Answer) -> str:
@@ -47,7 +52,9 @@ def from_json(text: str | bytes) -> Answer:
         given = json.loads(text)
         offered = _accepted([_extension(each) for each in given["extensions"]])
         files = tuple(str(each) for each in given["files"])
-        return Answer(() if given["error"] else offered, str(given["error"]), files, bool(given["hasty"]))
+        if given["error"]:
+            return Answer((), str(given["error"]), files, bool(given["hasty"]))
+        return Answer(offered, "", files, names=tuple(_name(each) for each in given["names"]))
     except PluginError as error:
         return Answer(error=str(error))
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
@@ -57,6 +64,12 @@ def from_json(text: str | bytes) -> Answer:
 def _extension(given: Mapping[str, Any]) -> Extension:
     tuples = {"uses": tuple(given["uses"]), "variants": tuple((key, text) for key, text in given["variants"])}
     return Extension(**{**given, **tuples})
+
+
+def _name(text: Any) -> str:
+    if not (isinstance(text, str) and text.isprintable() and len(text) <= _LONGEST_NAME):
+        raise PluginError(f"it has a scene whose name is no line of at most {_LONGEST_NAME} printable characters")
+    return text
 
 
 def _accepted(extensions: list[Extension]) -> tuple[Extension, ...]:

@@ -8,13 +8,14 @@ import sys
 import sysconfig
 from collections.abc import Iterable, Mapping
 from importlib.metadata import EntryPoint
+from itertools import islice
 from typing import Any
 
 import pluggy
 
 from phframe.core.errors import PluginError, error_text
 from phframe.registry import hookspec
-from phframe.registry.answer import MOST_EXTENSIONS, Answer, to_json
+from phframe.registry.answer import MOST_EXTENSIONS, MOST_NAMES, Answer, to_json
 from phframe.registry.extension import Extension
 
 _MOST_FILES = 2000
@@ -24,14 +25,17 @@ def main(request: Mapping[str, Any]) -> None:
     """Ask the plugins of one distribution, write what they answer, and end this process.
 
     Args:
-        request: ``hooks``, as in ``PluginDistribution``; ``answer``, the file to write; ``memory`` (bytes) and ``seconds``
-            that this may take.
+        request: ``hooks``, as in ``PluginDistribution``, or ``suite``, a suite of scenes as ``module:Class``; ``answer``, the
+            file to write; ``memory`` (bytes) and ``seconds`` that this may take.
     """
     _limit(request["memory"], request["seconds"])
     before = set(sys.modules)
     try:
-        extensions = tuple(each for hook in request["hooks"] for each in ask(_loaded(hook)))
-        answer = Answer(_few(extensions), files=_files(before))
+        if suite := request.get("suite"):
+            answer = Answer(names=_scene_names(_loaded(suite)))
+        else:
+            extensions = tuple(each for hook in request["hooks"] for each in ask(_loaded(hook)))
+            answer = Answer(_few(extensions), files=_files(before))
     except BaseException as error:  # noqa: BLE001 - whatever it does, it is told
         answer = Answer(error=_told(error, request["memory"]), files=_files(before))
     _write(request["answer"], to_json(answer))
@@ -62,6 +66,13 @@ def ask(plugin: object) -> list[Extension]:
 
 def _loaded(hook: str) -> object:
     return EntryPoint("plugin", hook, hookspec.PROJECT).load()
+
+
+def _scene_names(suite: Any) -> tuple[str, ...]:
+    names = tuple(islice(suite(suite.options_type()).names(), MOST_NAMES + 1))
+    if len(names) > MOST_NAMES:
+        raise PluginError(f"it lists more than {MOST_NAMES} scenes")
+    return names
 
 
 def _few(extensions: tuple[Extension, ...]) -> tuple[Extension, ...]:

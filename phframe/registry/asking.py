@@ -12,6 +12,7 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from phframe.registry.answer import MOST_BYTES, Answer, from_json
 from phframe.registry.distributions import PluginDistribution
@@ -31,44 +32,51 @@ _ALONE = {"PHFRAME_PLUGINS": "", **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_N
 
 
 def ask_all(asked: Sequence[PluginDistribution], seconds: float = SECONDS, memory: int = MEMORY) -> list[Answer]:
-    """What each distribution answers, in their order. None of their code runs in this process.
+    """What each distribution offers, in their order. None of their code runs in this process.
 
     Args:
         asked: The distributions.
         seconds: That each may take.
         memory: That each may use (bytes).
     """
+    return _all([{"hooks": each.hooks, "seconds": seconds, "memory": memory} for each in asked])
+
+
+def ask_scene_names(suites: Sequence[str]) -> list[Answer]:
+    """The names of the scenes of suites, made with the options that they have by default, in their order.
+
+    Args:
+        suites: Each as ``module:Class``.
+    """
+    return _all([{"suite": each, "seconds": SECONDS, "memory": MEMORY} for each in suites])
+
+
+def _all(requests: Sequence[Mapping[str, Any]]) -> list[Answer]:
     answers: dict[int, Answer] = {}
-    waiting = list(enumerate(asked))[::-1]
+    waiting = list(enumerate(requests))[::-1]
     running: dict[int, _Conversation] = {}
     with tempfile.TemporaryDirectory(prefix="phframe-", ignore_cleanup_errors=True) as folder, _ended(running):
         while waiting or running:
             while waiting and len(running) < _AT_ONCE:
                 number, each = waiting.pop()
-                running[number] = _Conversation(each, Path(folder, str(number)), seconds, memory)
+                running[number] = _Conversation(each, Path(folder, str(number)))
             for number in [number for number, each in running.items() if each.is_over()]:
                 answers[number] = running.pop(number).answer()
             time.sleep(_LOOK_AGAIN if running else 0)
-    return [answers[number] for number in range(len(asked))]
+    return [answers[number] for number in range(len(requests))]
 
 
 class _Conversation:
     """One distribution being asked."""
 
-    def __init__(self, asked: PluginDistribution, folder: Path, seconds: float, memory: int) -> None:
+    def __init__(self, request: Mapping[str, Any], folder: Path) -> None:
         folder.mkdir()
-        self._file, self._seconds = folder / "answer.json", seconds
-        request = {
-            "hooks": asked.hooks,
-            "answer": str(self._file),
-            "memory": memory,
-            "seconds": seconds,
-            "path": _path(),
-        }
-        self._until = time.monotonic() + seconds
+        self._file, self._seconds = folder / "answer.json", request["seconds"]
+        told = {**request, "answer": str(self._file), "path": _path()}
+        self._until = time.monotonic() + self._seconds
         nothing = subprocess.DEVNULL
         self._process = subprocess.Popen(
-            [sys.executable, "-P", "-c", _ASK, json.dumps(request)],
+            [sys.executable, "-P", "-c", _ASK, json.dumps(told)],
             stdin=nothing, stdout=nothing, stderr=nothing, cwd=folder, env={**os.environ, **_ALONE}, start_new_session=True,
         )  # fmt: skip
 

@@ -44,6 +44,6 @@ def _of_extras(distribution: str, extras: Iterable[str]) -> Iterator[str]:
 @cache
 def _version(distribution: str) -> str:
     try:
-        return metadata.version(distribution)
-    except metadata.PackageNotFoundError:
+        return metadata.version(distribution) or ""
+    except (metadata.PackageNotFoundError, OSError, ValueError):
         return "unknown" if distribution == HOME else ""
