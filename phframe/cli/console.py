@@ -57,55 +57,53 @@ def reserve_output() -> None:
 
     What else writes to it, as do libraries in C and processes that are started, writes to standard error.
     """
-    own = _copy_of(1)
-    _lead(1, 2)
-    if own is not None and sys.stdout is not None:
+    _open_standard_streams()
+    own = os.dup(1)  # processes that are started do not have it
+    os.dup2(2, 1)
+    if sys.stdout is not None:
         encoding, errors = sys.stdout.encoding, sys.stdout.errors
         sys.stdout = os.fdopen(own, "w", 1 if os.isatty(own) else -1, encoding=encoding, errors=errors)
 
 
 def release_output() -> None:
     """Undo ``reserve_output`` for a command whose output is the result, whatever writes it."""
-    with suppress(AttributeError, io.UnsupportedOperation, OSError):  # there is none, or it is no file
-        _lead(1, sys.stdout.fileno())
+    with suppress(AttributeError, io.UnsupportedOperation):  # there is none, or it is no file
+        os.dup2(sys.stdout.fileno(), 1)
 
 
 @contextmanager
 def results_only() -> Iterator[None]:
     """Meanwhile ``emit`` and ``show`` alone write to standard output; what else is printed goes to standard error."""
-    before = _RESULTS.set(_results())
+    before = _RESULTS.set((_results(),))
     try:
-        with redirect_stdout(sys.stderr):
+        with redirect_stdout(_aside()):
             yield
     finally:
         _RESULTS.reset(before)
 
 
-_RESULTS: ContextVar[TextIO | None] = ContextVar("results", default=None)
-"""Where results go while ``sys.stdout`` leads elsewhere."""
+_RESULTS: ContextVar[tuple[TextIO | None] | None] = ContextVar("results", default=None)
+"""Where results go while ``sys.stdout`` leads elsewhere; None in it: standard output is closed."""
 
 
-def _results() -> TextIO:
-    return _RESULTS.get() or sys.stdout
+def _results() -> TextIO | None:
+    reserved = _RESULTS.get()
+    return sys.stdout if reserved is None else reserved[0]
 
 
-def _copy_of(descriptor: int) -> int | None:
-    """Another descriptor of the same file, which processes that are started do not have; None: it is closed."""
+def _aside() -> TextIO | None:
+    """Another stream to standard error, which may be closed without harm."""
     try:
-        return os.dup(descriptor)
-    except OSError:
-        return None
+        return os.fdopen(sys.stderr.fileno(), "w", 1, encoding=sys.stderr.encoding, errors="replace", closefd=False)
+    except (AttributeError, io.UnsupportedOperation):  # there is none, or it is no file
+        return sys.stderr or open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123 - os.devnull is no path everywhere
 
 
-def _lead(descriptor: int, to: int) -> None:
-    """Make a descriptor one of another's file; of none, if that is closed."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    try:
-        os.dup2(to, descriptor)
-    except OSError:
-        os.dup2(nowhere, descriptor)
-    if nowhere != descriptor:
-        os.close(nowhere)
+def _open_standard_streams() -> None:
+    """Have descriptors 0 to 2 lead somewhere: of one that is closed, the next file that is opened would have the number."""
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
 
 
 def _columns() -> int:
@@ -121,6 +119,8 @@ def _write(stream: TextIO | None, text: str) -> None:
     try:
         stream.write(text.encode(encoding, errors="replace").decode(encoding) + "\n")
         stream.flush()
+    except ValueError:  # somebody has closed it
+        return
     except BrokenPipeError:
         leave(stream)
     except OSError as error:

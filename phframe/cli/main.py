@@ -61,5 +61,6 @@ def main() -> None:
     """Entry point of the command; ends the process. Being told to terminate is like Ctrl-C: what was recorded is kept."""
     reserve_output()
     os.environ.setdefault("PYTHONSAFEPATH", "1")  # processes that are started import nothing from the working directory
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it would ask every distribution for them
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     app(prog_name="phframe")

@@ -18,6 +18,8 @@ MOST_NAMES = 10_000
 _LONGEST_NAME = 200
 MOST_BYTES = 4 << 20
 """Of an answer."""
+UNREADABLE = (ValueError, TypeError, KeyError, AttributeError, RecursionError)
+"""What reading a text that is no answer raises."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,18 +49,28 @@ def to_json(answer: Answer) -> str:
 def from_json(text: str | bytes) -> Answer:
     """An answer that somebody wrote. One that breaks the rules becomes the reason why it is not taken."""
     try:
-        if len(text) > MOST_BYTES:
-            raise PluginError(f"its answer is longer than {MOST_BYTES >> 10} KB")
-        given = json.loads(text)
-        offered = _accepted([_extension(each) for each in given["extensions"]])
-        files = tuple(str(each) for each in given["files"])
-        if given["error"]:
-            return Answer((), str(given["error"]), files, bool(given["hasty"]))
-        return Answer(offered, "", files, names=tuple(_name(each) for each in given["names"]))
+        return read(text)
     except PluginError as error:
         return Answer(error=str(error))
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+    except UNREADABLE as error:
         return Answer(error=f"its answer cannot be read: {error_text(error)}")
+
+
+def read(text: str | bytes) -> Answer:
+    """An answer that was written by ``to_json``.
+
+    Raises:
+        PluginError: If it breaks the rules.
+        UNREADABLE: If it is no answer.
+    """
+    if len(text) > MOST_BYTES:
+        raise PluginError(f"its answer is longer than {MOST_BYTES >> 10} KB")
+    given = json.loads(text)
+    files = tuple(str(each) for each in given["files"])
+    if given["error"]:
+        return Answer((), str(given["error"]), files, bool(given["hasty"]))
+    offered = _accepted([_extension(each) for each in given["extensions"]])
+    return Answer(offered, "", files, names=tuple(_name(each) for each in given["names"]))
 
 
 def _extension(given: Mapping[str, Any]) -> Extension:

@@ -15,8 +15,9 @@ from dataclasses import asdict
 from importlib.machinery import PathFinder
 from pathlib import Path
 
+from phframe.core.errors import PluginError
 from phframe.core.version import own_version
-from phframe.registry.answer import MOST_BYTES, Answer, from_json, to_json
+from phframe.registry.answer import MOST_BYTES, UNREADABLE, Answer, read, to_json
 from phframe.registry.distributions import PluginDistribution
 from phframe.registry.extension import API_VERSION
 
@@ -42,12 +43,12 @@ class AnswerCache:
 
     def get(self, asked: PluginDistribution) -> Answer | None:
         """What a distribution answered; None: it has to be asked."""
-        with suppress(OSError, ValueError, TypeError, KeyError, RecursionError):
+        with suppress(OSError, PluginError, *UNREADABLE):
             file = self._file(asked)
             if file is None or not stat.S_ISREG(file.stat().st_mode) or file.stat().st_size > 4 * MOST_BYTES:
                 return None
             kept = json.loads(file.read_bytes())
-            answer = from_json(kept["answer"])
+            answer = read(kept["answer"])
             young = not answer.hasty or 0 <= time.time() - file.stat().st_mtime < HASTY
             if young and _state(str(path) for path, *_ in kept["state"]) == kept["state"]:
                 return answer

@@ -17,26 +17,30 @@ from typing import Any
 from phframe.registry.answer import MOST_BYTES, Answer, from_json
 from phframe.registry.distributions import PluginDistribution
 
-SECONDS = 10.0
-"""That a distribution may take to answer (wall time)."""
 MEMORY = 2 << 30
-"""That it may use for it (bytes)."""
+"""That a distribution may use to answer (bytes)."""
+_NAMES_SECONDS = 30.0
+"""That a suite of scenes may take to tell their names; it imports more."""
 _AT_ONCE = max(1, min(4, os.cpu_count() or 1))
 _LOOK_AGAIN = 0.004  # seconds
 _ASK = (
     "import json, sys; request = json.loads(sys.argv[1]); sys.path[:] = request['path']; "
     "from phframe.registry.answering import main; main(request)"
 )
-_ALONE = {"PHFRAME_PLUGINS": "", **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")}
+_ALONE = {
+    "PHFRAME_PLUGINS": "",
+    "PYDANTIC_DISABLE_PLUGINS": "__all__",
+    **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
+}
 """Of the environment: one that asks for the catalogue itself asks nobody, and memory is not spent on threads."""
 
 
-def ask_all(asked: Sequence[PluginDistribution], seconds: float = SECONDS, memory: int = MEMORY) -> list[Answer]:
+def ask_all(asked: Sequence[PluginDistribution], seconds: float, memory: int = MEMORY) -> list[Answer]:
     """What each distribution offers, in their order. None of their code runs in this process.
 
     Args:
         asked: The distributions.
-        seconds: That each may take.
+        seconds: That each may take (wall time).
         memory: That each may use (bytes).
     """
     return _all([{"hooks": each.hooks, "seconds": seconds, "memory": memory} for each in asked])
@@ -48,7 +52,7 @@ def ask_scene_names(suites: Sequence[str]) -> list[Answer]:
     Args:
         suites: Each as ``module:Class``.
     """
-    return _all([{"suite": each, "seconds": SECONDS, "memory": MEMORY} for each in suites])
+    return _all([{"suite": each, "seconds": _NAMES_SECONDS, "memory": MEMORY} for each in suites])
 
 
 def _all(requests: Sequence[Mapping[str, Any]]) -> list[Answer]:

@@ -79,7 +79,7 @@ def _folder(distribution: metadata.Distribution) -> Path | None:
 
 def _read(distribution: metadata.Distribution) -> PluginDistribution | None:
     folder = _folder(distribution)
-    shown = ascii(folder.name)[1:-1] if folder else "unknown"
+    name, version = ascii(folder.name)[1:-1] if folder else "unknown", ""
     try:
         text = _text(distribution, "entry_points.txt")
         if not _SECTION.search(text):
@@ -90,7 +90,7 @@ def _read(distribution: metadata.Distribution) -> PluginDistribution | None:
         name, version = _name_and_version(distribution)
         return PluginDistribution(name, version, tuple(_hooks(text)), folder)
     except Exception as error:  # noqa: BLE001 - whatever is wrong with it, the rest goes on
-        return PluginDistribution(shown, "", (), folder, error_text(error))
+        return PluginDistribution(name, version, (), folder, error_text(error))
 
 
 def _text(distribution: metadata.Distribution, name: str) -> str:

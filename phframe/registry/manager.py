@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Sequence
 from functools import cache
 from importlib import metadata
 
-from phframe.core.errors import PluginError
+from phframe.core.errors import InputError, PluginError
 from phframe.core.version import own_version
 from phframe.registry import builtin
 from phframe.registry.answer import Answer
@@ -23,6 +23,9 @@ ONLY = "PHFRAME_PLUGINS"
 STRICT = "PHFRAME_PLUGINS_STRICT"
 """Environment variable: 1 makes a broken plugin an error instead of leaving it out."""
 
+SECONDS = "PHFRAME_PLUGINS_SECONDS"
+"""Environment variable: how long a distribution may take to answer what it offers (s). Unset: 10."""
+
 
 @cache
 def builtins() -> Catalogue:
@@ -36,6 +39,7 @@ def catalogue() -> Catalogue:
 
     Raises:
         PluginError: If a plugin is broken and ``PHFRAME_PLUGINS_STRICT`` is 1.
+        InputError: If ``PHFRAME_PLUGINS_SECONDS`` is no number of seconds.
     """
     listed = os.environ.get(ONLY)
     only = None if listed is None else [name.strip() for name in listed.split(",") if name.strip()]
@@ -97,10 +101,21 @@ def _answers(asked: Sequence[PluginDistribution]) -> list[Answer]:
         from phframe.registry.asking import ask_all  # seldom needed
 
         since = time.time_ns()
-        known |= dict(zip(rest, ask_all([asked[number] for number in rest]), strict=True))
+        known |= dict(zip(rest, ask_all([asked[number] for number in rest], _seconds()), strict=True))
         for number in rest:
             kept.put(asked[number], known[number], since)
     return [known[number] for number in range(len(asked))]
+
+
+def _seconds() -> float:
+    given = os.environ.get(SECONDS, "10")
+    try:
+        seconds = float(given)
+    except ValueError:
+        seconds = 0.0
+    if not 0.0 < seconds < 1e6:
+        raise InputError(f"{SECONDS} is a number of seconds above 0, not {given!r}")
+    return seconds
 
 
 def _entry(extension: Extension, distribution: str, version: str) -> Entry:
