@@ -13,10 +13,10 @@ from pathlib import Path
 import phframe
 from phframe.bench.environment import Environment
 from phframe.core import RunSpec
+from phframe.core.distributions import HOME
 from phframe.core.run_spec import PARTS
 from phframe.core.variant import split_variant
 from phframe.registry import Kind, look_up
-from phframe.registry.distributions import HOME
 from phframe.registry.from_file import is_file
 from phframe.runtime.versions import versions_of
 

@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass, replace
 from functools import cache
 from typing import Any
 
+from phframe.core.distributions import HOME
 from phframe.registry import Entry, Kind, catalogue, create
 from phframe.registry.answer import Answer
-from phframe.registry.distributions import HOME
 from phframe.registry.requirements import Missing, missing
 
 FORMAT = 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection
+from importlib import metadata
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -67,8 +68,12 @@ def _entry(name: str) -> Entry | None:
 
 
 def _entries() -> tuple[Entry, ...]:
-    """The registered commands. The registry is imported only if any plugin is to be loaded."""
+    """The registered commands. The registry is imported only if there are plugins."""
     if os.environ.get("PHFRAME_PLUGINS", "all").strip() == "":
+        return ()
+    from phframe.core.distributions import with_plugins
+
+    if not with_plugins(metadata.distributions()):
         return ()
     from phframe.core.errors import PhframeError
     from phframe.registry import Kind, catalogue

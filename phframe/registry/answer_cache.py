@@ -15,10 +15,10 @@ from dataclasses import asdict
 from importlib.machinery import PathFinder
 from pathlib import Path
 
+from phframe.core.distributions import PluginDistribution
 from phframe.core.errors import PluginError
 from phframe.core.version import own_version
 from phframe.registry.answer import MOST_BYTES, UNREADABLE, Answer, read, to_json
-from phframe.registry.distributions import PluginDistribution
 from phframe.registry.extension import API_VERSION
 
 DIRECTORY = "PHFRAME_CACHE"

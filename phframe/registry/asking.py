@@ -14,8 +14,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
+from phframe.core.distributions import PluginDistribution
 from phframe.registry.answer import MOST_BYTES, Answer, from_json
-from phframe.registry.distributions import PluginDistribution
 
 MEMORY = 2 << 30
 """That a distribution may use to answer (bytes)."""

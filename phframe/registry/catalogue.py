@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from phframe.core.distributions import HOME, normalized
 from phframe.core.errors import UnknownNameError
-from phframe.registry.distributions import HOME, normalized
 from phframe.registry.extension import Extension, Kind
 from phframe.registry.requirements import missing
 

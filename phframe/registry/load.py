@@ -8,11 +8,11 @@ from types import MappingProxyType
 from typing import Any
 
 from phframe import core
+from phframe.core.distributions import HOME
 from phframe.core.errors import InputError, NotInstalledError, OptionError, PluginError
 from phframe.core.stored_name import StoredName
 from phframe.core.variant import merged_options, split_variant
 from phframe.registry.catalogue import Catalogue, Entry
-from phframe.registry.distributions import HOME
 from phframe.registry.extension import Kind
 from phframe.registry.foreign import foreign_code
 from phframe.registry.from_file import is_file, load_from_file

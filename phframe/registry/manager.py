@@ -8,13 +8,13 @@ from collections.abc import Collection, Iterable, Sequence
 from functools import cache
 from importlib import metadata
 
+from phframe.core.distributions import HOME, PluginDistribution, normalized, with_plugins
 from phframe.core.errors import InputError, PluginError
 from phframe.core.version import own_version
 from phframe.registry import builtin
 from phframe.registry.answer import Answer
 from phframe.registry.answer_cache import AnswerCache, cache_folder
 from phframe.registry.catalogue import Broken, Catalogue, Entry, named
-from phframe.registry.distributions import HOME, PluginDistribution, normalized, with_plugins
 from phframe.registry.extension import Extension, Kind
 
 ONLY = "PHFRAME_PLUGINS"

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib import metadata
 
+from phframe.core.distributions import HOME
 from phframe.registry.catalogue import Catalogue
-from phframe.registry.distributions import HOME
 from phframe.registry.extension import Kind
 from phframe.registry.manager import look_up
 from phframe.registry.requirements import required
