@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import replace
 from typing import ClassVar, Generic, TypeVar, final
 
+from phframe.core.arm import GRAZING
 from phframe.core.errors import BudgetExceededError, PluginError, SimulationDivergedError
 from phframe.core.options import Options
 from phframe.core.plan import Plan
@@ -55,11 +56,15 @@ class Planner(ABC, Generic[OptionsT]):
         return replace(plan, cost=task.cost)
 
     def _beyond_reach(self, task: Task) -> Plan | None:
-        """That the object which has to be grasped cannot be, if so: too low for the fingers, or out of the arm's reach."""
+        """That the object to be grasped cannot be, if so: too low a shelf for the arm, too low for the fingers, or out of reach."""
         if (wanted := task.goal.grasped(task.scene)) is None:
             return None
         tall, fingers = task.scene.objects[task.scene.index(wanted)].shape.height, task.arm.fingers_bottom
-        if tall <= fingers:
+        if (top := task.arm.top) >= (ceiling := task.scene.shelf.height):
+            return Plan(
+                Status.FAILED, f"the shelf is {ceiling:g} m high: the arm, up to {top:g} m high, does not go in"
+            )
+        if tall <= fingers + GRAZING:
             low = f"{wanted} is {tall:g} m tall, and the fingers pass over the board at {fingers:g} m: they cannot grasp it"
             return Plan(Status.FAILED, low)
         beyond = None if self.pushes_target else task.out_of_reach(wanted)
