@@ -68,8 +68,9 @@ class CommandGroup(TyperGroup):
         name = args[0]
         if name in self.commands or name.startswith("-"):
             return super().resolve_command(ctx, args)
-        if ctx.resilient_parsing and name not in self.list_commands(ctx):
-            return None, None, args[1:]
+        if ctx.resilient_parsing:  # after Tab: no plugin's code is run
+            command = plugin_commands.summary(name)
+            return name if command else None, command, args[1:]
         return name, plugin_commands.load_command(name, self.commands), args[1:]
 
 

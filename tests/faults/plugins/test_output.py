@@ -82,18 +82,24 @@ def test_a_plugin_s_command_has_it_for_itself(tmp_path: Path) -> None:
 
 
 def test_tab_offers_names_and_nothing_else(tmp_path: Path) -> None:
-    bench = made(
-        tmp_path, [Hostile("lab-chats", None, f"print('noise'){OFFER}"), Hostile("lab-exits", "", "os._exit(0)")]
-    )
-    (bench.site / "lab_chats_class.py").write_text("open('ran-class', 'w')\nprint('noise')\n")
+    kinds = [
+        Hostile("lab-says", None, OFFER.replace("PLANNER", "COMMAND")),
+        Hostile("lab-chats", None, f"print('noise'){OFFER}"),
+        Hostile("lab-exits", "", "os._exit(0)"),
+    ]
+    bench = made(tmp_path, kinds)
+    for kind in kinds:
+        (bench.site / f"{kind.module}_class.py").write_text("open('ran-class', 'w')\nprint('noise')\n")
     (bench.work / "mine.py").write_text("open('ran-file', 'w')\nprint('noise')\n")
     for words, expected in (
+        ("phframe lab-", {"lab-says"}),
+        ("phframe lab-says --", {"--help"}),
         ("phframe solve --planner ", {"phia", "lab-chats"}),
         ("phframe solve --planner lab-chats --option ", {"arm.link_width="}),
         ("phframe solve --planner ./mine.py:Mine --option ", {"arm.link_width="}),
     ):
-        count = str(len(words.split()))
-        done = bench.run(_PHFRAME_COMPLETE="complete_bash", COMP_WORDS=words, COMP_CWORD=count)
+        count = len(words.split()) - (not words.endswith(" "))
+        done = bench.run(_PHFRAME_COMPLETE="complete_bash", COMP_WORDS=words, COMP_CWORD=str(count))
         assert expected <= set(done.stdout.split())
         assert "noise" not in done.stdout + done.stderr
     assert [path.name for path in bench.work.iterdir()] == ["mine.py"]
