@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout, suppress
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
@@ -20,14 +24,14 @@ def note(text: str) -> None:
 
 def emit(text: str) -> None:
     """The result, as text."""
-    _write(sys.stdout, text)
+    _write(_results(), text)
 
 
 def show(what: RenderableType) -> None:
     """The result, as a table or another picture of it."""
     from rich.console import Console
 
-    console = Console(highlight=False)
+    console = Console(highlight=False, file=_results())
     if not console.is_terminal:
         console.width = _columns()
     with console.capture() as capture:
@@ -48,6 +52,60 @@ def leave(stream: TextIO) -> None:
         os.dup2(nowhere.fileno(), stream.fileno())
 
 
+def reserve_output() -> None:
+    """Keep standard output for ``sys.stdout`` from now on.
+
+    What else writes to it, as do libraries in C and processes that are started, writes to standard error.
+    """
+    _open_standard_streams()
+    own = os.dup(1)  # processes that are started do not have it
+    os.dup2(2, 1)
+    if sys.stdout is not None:
+        encoding, errors = sys.stdout.encoding, sys.stdout.errors
+        sys.stdout = os.fdopen(own, "w", 1 if os.isatty(own) else -1, encoding=encoding, errors=errors)
+
+
+def release_output() -> None:
+    """Undo ``reserve_output`` for a command whose output is the result, whatever writes it."""
+    with suppress(AttributeError, io.UnsupportedOperation):  # there is none, or it is no file
+        os.dup2(sys.stdout.fileno(), 1)
+
+
+@contextmanager
+def results_only() -> Iterator[None]:
+    """Meanwhile ``emit`` and ``show`` alone write to standard output; what else is printed goes to standard error."""
+    before = _RESULTS.set((_results(),))
+    try:
+        with redirect_stdout(_aside()):
+            yield
+    finally:
+        _RESULTS.reset(before)
+
+
+_RESULTS: ContextVar[tuple[TextIO | None] | None] = ContextVar("results", default=None)
+"""Where results go while ``sys.stdout`` leads elsewhere; None in it: standard output is closed."""
+
+
+def _results() -> TextIO | None:
+    reserved = _RESULTS.get()
+    return sys.stdout if reserved is None else reserved[0]
+
+
+def _aside() -> TextIO | None:
+    """Another stream to standard error, which may be closed without harm."""
+    try:
+        return os.fdopen(sys.stderr.fileno(), "w", 1, encoding=sys.stderr.encoding, errors="replace", closefd=False)
+    except (AttributeError, io.UnsupportedOperation):  # there is none, or it is no file
+        return sys.stderr or open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123 - os.devnull is no path everywhere
+
+
+def _open_standard_streams() -> None:
+    """Have descriptors 0 to 2 lead somewhere: of one that is closed, the next file that is opened would have the number."""
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
+
+
 def _columns() -> int:
     given = os.environ.get("COLUMNS", "")
     return int(given) if given.isdigit() and int(given) > 0 else UNLIMITED
@@ -61,6 +119,8 @@ def _write(stream: TextIO | None, text: str) -> None:
     try:
         stream.write(text.encode(encoding, errors="replace").decode(encoding) + "\n")
         stream.flush()
+    except ValueError:  # somebody has closed it
+        return
     except BrokenPipeError:
         leave(stream)
     except OSError as error:
