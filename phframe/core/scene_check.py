@@ -62,12 +62,16 @@ def _bad_shelf(shelf: Shelf) -> Iterator[str]:
         yield from not_negative(f"shelf {name}", getattr(shelf, name), FRICTION)
 
 
+def base_pose_faults(owner: str, base_pose: BasePose) -> Iterator[str]:
+    """What is wrong with where an arm's base stands, in sentences that begin with whose it is."""
+    for axis in ("x", "y", "z"):
+        yield from at_most(f"{owner}: {axis}", getattr(base_pose, axis), FARTHEST, "distances (m)")
+    yield from at_most(f"{owner}: yaw", base_pose.yaw, MOST_TURNED, "headings (rad)")
+
+
 def _bad_base_poses(base_poses: Mapping[str, BasePose]) -> Iterator[str]:
     for name, base_pose in base_poses.items():
-        owner = f"base pose of {name_shown(name)}"
-        for axis in ("x", "y", "z"):
-            yield from at_most(f"{owner}: {axis}", getattr(base_pose, axis), FARTHEST, "distances (m)")
-        yield from at_most(f"{owner}: yaw", base_pose.yaw, MOST_TURNED, "headings (rad)")
+        yield from base_pose_faults(f"base pose of {name_shown(name)}", base_pose)
 
 
 def _bad_object(item: SceneObject) -> Iterator[str]:
