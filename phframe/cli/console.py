@@ -1,10 +1,15 @@
-"""Where the commands write to: results to standard output, everything else to standard error."""
+"""Where the commands write to: results to standard output, everything else to standard error.
+
+Whatever is written is printable here, and messages are short here: nobody else has to see to it.
+"""
 
 from __future__ import annotations
 
 import os
 import sys
 from typing import TYPE_CHECKING, TextIO
+
+from phframe.cli.printable import abridged, printable
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -15,31 +20,31 @@ UNLIMITED = 10_000
 
 def note(text: str) -> None:
     """A line for people, beside the result."""
-    _write(sys.stderr, text)
+    _write(sys.stderr, printable(abridged(text)))
 
 
 def emit(text: str) -> None:
     """The result, as text."""
-    _write(sys.stdout, text)
+    _write(sys.stdout, printable(text))
 
 
 def show(what: RenderableType) -> None:
     """The result, as a table or another picture of it."""
-    from rich.console import Console
+    from phframe.cli.rich_console import PrintableConsole
 
-    console = Console(highlight=False)
+    console = PrintableConsole(highlight=False)
     if not console.is_terminal:
         console.width = _columns()
     with console.capture() as capture:
         console.print(what)
-    emit("\n".join(line.rstrip() for line in capture.get().rstrip("\n").split("\n")))
+    _write(sys.stdout, "\n".join(line.rstrip() for line in capture.get().rstrip("\n").split("\n")))
 
 
 def error_console() -> Console:
     """Standard error, for progress."""
-    from rich.console import Console
+    from phframe.cli.rich_console import PrintableConsole
 
-    return Console(stderr=True, highlight=False)
+    return PrintableConsole(stderr=True, highlight=False)
 
 
 def leave(stream: TextIO) -> None:

@@ -11,7 +11,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,7 +41,7 @@ class ProcessEndedError(PhframeError):
     """A process that ended, or was ended, before it had an answer; says why."""
 
 
-def answer_of(module: str, arguments: Sequence[str], limits: ProcessLimits, given: bytes = b"") -> bytes:
+def answer_of(module: str, question: bytes, limits: ProcessLimits) -> bytes:
     """What a module answers that is run in a process of its own, where it calls ``answer``.
 
     Nothing that it prints is seen, and it ends with the caller's interruption. The current directory is not searched for
@@ -49,18 +49,16 @@ def answer_of(module: str, arguments: Sequence[str], limits: ProcessLimits, give
 
     Args:
         module: Its name.
-        arguments: For its function.
+        question: For its function.
         limits: What the process may take.
-        given: Its standard input.
 
     Raises:
-        ProcessEndedError: If it took more than it may, or ended without an answer.
+        ProcessEndedError: If it cannot be started, took more than it may, or ended without an answer.
     """
-    command = [sys.executable, "-P", "-m", module, str(limits.memory), str(limits.seconds), *arguments]
-    pipe, nowhere = subprocess.PIPE, subprocess.DEVNULL
-    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=nowhere) as process:
+    command = [sys.executable, "-P", "-m", module, str(limits.memory), str(limits.seconds)]
+    with _started(command) as process:
         try:
-            found, _ = process.communicate(given, timeout=limits.seconds)
+            found, _ = process.communicate(question, timeout=limits.seconds)
         except subprocess.TimeoutExpired:
             raise ProcessEndedError(f"it takes more than {limits.seconds:g} s") from None
         finally:
@@ -70,19 +68,27 @@ def answer_of(module: str, arguments: Sequence[str], limits: ProcessLimits, give
     return found
 
 
-def answer(work: Callable[[Sequence[str]], bytes]) -> None:
+def _started(command: list[str]) -> subprocess.Popen[bytes]:
+    pipe, nowhere = subprocess.PIPE, subprocess.DEVNULL
+    try:
+        return subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=nowhere)
+    except OSError as error:
+        raise ProcessEndedError(f"no process for it can be started: {error.strerror or error}") from None
+
+
+def answer(work: Callable[[bytes], bytes]) -> None:
     """The whole of what a process does that ``answer_of`` started: limits itself, works, answers.
 
     Args:
-        work: From the arguments to the answer.
+        work: From the question to the answer.
     """
-    memory, seconds, *arguments = sys.argv[1:]
+    memory, seconds = sys.argv[1:]
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # also while a library is at work that never returns to Python
     into = os.dup(1)
     os.dup2(2, 1)  # what libraries print is no answer
     _limit(int(memory), float(seconds))
     try:
-        found = work(arguments)
+        found = work(sys.stdin.buffer.read())
         with os.fdopen(into, "wb") as stream:
             stream.write(found)
     except MemoryError:

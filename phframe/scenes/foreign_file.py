@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -50,7 +51,7 @@ def read_foreign(path: str | Path, limits: ProcessLimits | None = None) -> Forei
     """
     source, file, limits = path_shown(path), user_path(path), limits or ProcessLimits()
     try:
-        answer = answer_of(READER, [str(file.absolute()), source], limits)
+        answer = answer_of(READER, json.dumps([str(file.absolute()), source]).encode(), limits)
     except ProcessEndedError as error:
         raise SceneError(f"MuJoCo cannot make a model of it: {error}", source) from None
     reading = TypeAdapter(ForeignReading).validate_json(answer)

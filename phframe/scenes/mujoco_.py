@@ -5,10 +5,11 @@ Free bodies are objects, boxes and planes fixed to the world may be a shelf. Eve
 
 from __future__ import annotations
 
+import json
 import warnings
 import xml.etree.ElementTree as ET
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -306,8 +307,8 @@ class _Reading:
         self._ignored += [f"{what}: {count}" for what, count in counts.items() if count]
 
 
-def _reading(arguments: Sequence[str]) -> bytes:
-    path, source = arguments
+def _reading(question: bytes) -> bytes:
+    path, source = json.loads(question)
     try:
         reading = ForeignReading(read_mjcf(path, source))
     except SceneError as error:
