@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from phframe.core.scene import Scene
     from phframe.core.state import State
 
+FINGER_ROOM = 0.003
+"""Least room between an object and each of the open fingers that go around it (m)."""
 LEAST_SERVED = 0.7
 """Fraction of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
 

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import replace
 from typing import ClassVar, Generic, TypeVar, final
 
+from phframe.core.arm import FINGER_ROOM, ArmShape
 from phframe.core.errors import BudgetExceededError, PluginError, SimulationDivergedError
 from phframe.core.options import Options
 from phframe.core.plan import Plan
@@ -38,8 +39,8 @@ class Planner(ABC, Generic[OptionsT]):
     def plan(self, task: Task) -> Plan:
         """Search, and always return a plan: a spent budget or a diverged simulation is a result with a reason.
 
-        Where the object that has to be grasped is too low for the fingers, or out of the arm's reach and not to be pushed,
-        that is the reason, and nothing is searched.
+        Where the object that has to be grasped is too low or too wide for the fingers, or out of the arm's reach and not to
+        be pushed, that is the reason, and nothing is searched.
 
         Raises:
             PluginError: If ``search`` returns something else than a plan.
@@ -55,13 +56,11 @@ class Planner(ABC, Generic[OptionsT]):
         return replace(plan, cost=task.cost)
 
     def _beyond_reach(self, task: Task) -> Plan | None:
-        """That the object which has to be grasped cannot be, if so: too low for the fingers, or out of the arm's reach."""
+        """That the object which has to be grasped cannot be, if so: by its size, or since it is out of the arm's reach."""
         if (wanted := task.goal.grasped(task.scene)) is None:
             return None
-        tall, fingers = task.scene.objects[task.scene.index(wanted)].shape.height, task.arm.fingers_bottom
-        if tall <= fingers:
-            low = f"{wanted} is {tall:g} m tall, and the fingers pass over the board at {fingers:g} m: they cannot grasp it"
-            return Plan(Status.FAILED, low)
+        if misfit := _misfit(task.scene, wanted, task.arm):
+            return Plan(Status.FAILED, misfit)
         beyond = None if self.pushes_target else task.out_of_reach(wanted)
         return None if beyond is None else Plan(Status.FAILED, f"{wanted} is out of reach: {beyond.why}")
 
@@ -79,3 +78,16 @@ class Planner(ABC, Generic[OptionsT]):
         What cannot be solved is a plan with status ``FAILED`` and a reason, never an exception and never None. Let
         ``BudgetExceededError`` pass: ``plan`` deals with it. Do not print. Take chance from ``task.rng`` only.
         """
+
+
+def _misfit(scene: Scene, wanted: str, arm: ArmShape) -> str:
+    """Why the fingers cannot grasp an object, wherever it stands; empty: they can."""
+    item = scene.objects[scene.index(wanted)]
+    tall, fingers = item.shape.height, arm.fingers_bottom
+    if tall <= fingers:
+        return (
+            f"{wanted} is {tall:g} m tall, and the fingers pass over the board at {fingers:g} m: they cannot grasp it"
+        )
+    if 2.0 * (item.radius + FINGER_ROOM) > arm.max_opening:
+        return f"{wanted} is {2.0 * item.radius:g} m wide, too wide for a gripper that opens {arm.max_opening:g} m"
+    return ""
