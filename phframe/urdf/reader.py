@@ -65,7 +65,10 @@ def _inertia(element: ET.Element | None, link: str) -> Inertia | None:
     at, rpy = _origin(element)
     numbers = [0.0 if moments is None else _given(moments, key, owner) for key in MOMENTS]
     xx, xy, xz, yy, yz, zz = numbers
-    inertia = Inertia(_number(element.find("mass"), "value", owner), ORIGIN, (xx, xy, xz, yy, yz, zz))
+    mass = _number(element.find("mass"), "value", owner)
+    if mass < 0.0 or min(xx, yy, zz) < 0.0:
+        raise ArmError(f"{owner} of the URDF has a mass or a moment below 0")
+    inertia = Inertia(mass, ORIGIN, (xx, xy, xz, yy, yz, zz))
     return inertia.moved(at, rpy) if any(rpy) else Inertia(inertia.mass, at, inertia.moments)
 
 
