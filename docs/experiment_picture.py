@@ -16,7 +16,7 @@ FIGURES = {
     "experiment-bars.png": ("runs/paper", "bars-pymunk-with-planar.png"),
     "experiment-solved-over-time.png": ("runs/paper", "solved-over-time-pymunk-with-planar.png"),
     "experiment-profile.png": ("runs/paper", "profile-pymunk-with-planar.png"),
-    "experiment-bars-mujoco.png": ("runs/paper-mujoco", "bars-mujoco-with-planar-planned-in-pymunk.png"),
+    "experiment-bars-mujoco.png": ("runs/paper-mujoco", "bars-mujoco-with-planar-planned-in-fast.png"),
 }
 """The bench and the figure of its report that each is."""
 

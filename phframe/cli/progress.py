@@ -23,7 +23,7 @@ class Progress(Observer):
 
     def __init__(self, after: float = AFTER) -> None:
         self._console = error_console()
-        self._status = self._console.status("Loading the libraries")
+        self._status = self._console.status("Loading the libraries (the first time, what is compiled takes a minute)")
         self._after, self._wanted = after, False
         self._timer = self._new_timer()
         self._to_do, self._plans, self._done = 0, 0, 0

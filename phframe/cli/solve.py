@@ -27,7 +27,8 @@ Planner = Annotated[
 ]
 Backend = Annotated[str, part("backend", "The physics to act in: a name ('phframe backends') or ./mine.py:Mine.")]
 PlanBackend = Annotated[
-    str | None, part("backend", "The physics to plan in.", "pymunk where the backend drives joints, else the backend")
+    str | None,
+    part("backend", "The physics to plan in.", "fast or pymunk where the backend drives joints, else the backend"),
 ]
 PlanArm = Annotated[str | None, part("arm", "The robot arm to plan with.", "the arm")]
 Topology = Annotated[

@@ -2,7 +2,7 @@
 
 from phframe.core.action import Action, ActionKind
 from phframe.core.advisor import NOBODY, Advisor, Hint, Question
-from phframe.core.arm import ArmModel, ArmShape, Fingers, Joint, Outline
+from phframe.core.arm import GRAZING, ArmModel, ArmShape, Fingers, Joint, Outline
 from phframe.core.condition import condition_of
 from phframe.core.decision import Decision
 from phframe.core.episode import Episode, Step
@@ -53,6 +53,7 @@ from phframe.core.value import FloatArray, Floats, IntArray, Ints, Value
 
 __all__ = [
     "FORCE_WINDOW",
+    "GRAZING",
     "MOUTH_CLEARANCE",
     "NOBODY",
     "ROOT",

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, Generic, Self, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from phframe.core.errors import ArmError
 from phframe.core.mesh import LinkMesh
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 FINGER_ROOM = 0.003
 """Least room between an object and each of the open fingers that go around it (m)."""
+GRAZING = 1e-6
+"""Heights that differ by less (m) only touch: what passes over something passes over what is no more than this higher."""
 LEAST_SERVED = 0.7
 """Fraction of the shelf over which the joints of an arm that is to be driven by them must take its fingertip."""
 
@@ -84,8 +86,21 @@ class ArmShape:
         return self.height + min(outline.bottom for outline in self.closed if outline.side or not self._has_fingers)
 
     @property
+    def top(self) -> float:
+        """Of its highest part above the board (m)."""
+        return self.height + max(outline.top for outline in self.closed)
+
+    def meets(self, height: float) -> tuple[bool, ...]:
+        """For each part of ``closed``, whether it meets what stands on the board and is so tall (m), or passes over it."""
+        return tuple(self.height + outline.bottom < height - GRAZING for outline in self.closed)
+
+    @property
     def _has_fingers(self) -> bool:
         return any(outline.side for outline in self.closed)
+
+    def met(self, scene: Scene) -> NDArray[np.bool_]:
+        """Which objects of a scene ``(n,)`` the arm meets with any part; it passes over the others."""
+        return np.array([any(self.meets(item.shape.height)) for item in scene.objects])
 
     def outlines(self, opening: float) -> tuple[Outline, ...]:
         """The outlines with the fingers ``opening`` (m) apart.

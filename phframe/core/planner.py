@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import replace
 from typing import ClassVar, Generic, TypeVar, final
 
-from phframe.core.arm import FINGER_ROOM, ArmShape
+from phframe.core.arm import FINGER_ROOM, GRAZING, ArmShape
 from phframe.core.errors import BudgetExceededError, PluginError, SimulationDivergedError
 from phframe.core.options import Options
 from phframe.core.plan import Plan
@@ -56,7 +56,7 @@ class Planner(ABC, Generic[OptionsT]):
         return replace(plan, cost=task.cost)
 
     def _beyond_reach(self, task: Task) -> Plan | None:
-        """That the object which has to be grasped cannot be, if so: by its size, or since it is out of the arm's reach."""
+        """That the object to be grasped cannot be, if so: shelf, arm and object do not fit together, or it is out of reach."""
         if (wanted := task.goal.grasped(task.scene)) is None:
             return None
         if misfit := _misfit(task.scene, wanted, task.arm):
@@ -81,10 +81,12 @@ class Planner(ABC, Generic[OptionsT]):
 
 
 def _misfit(scene: Scene, wanted: str, arm: ArmShape) -> str:
-    """Why the fingers cannot grasp an object, wherever it stands; empty: they can."""
+    """Why an arm cannot grasp an object of a shelf, wherever it stands; empty: it can."""
     item = scene.objects[scene.index(wanted)]
     tall, fingers = item.shape.height, arm.fingers_bottom
-    if tall <= fingers:
+    if (top := arm.top) >= (ceiling := scene.shelf.height):
+        return f"the shelf is {ceiling:g} m high: the arm, up to {top:g} m high, does not go in"
+    if tall <= fingers + GRAZING:
         return (
             f"{wanted} is {tall:g} m tall, and the fingers pass over the board at {fingers:g} m: they cannot grasp it"
         )

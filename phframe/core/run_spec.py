@@ -72,7 +72,8 @@ class RunSpec(Value):
         planner: Makes the plans.
         backend: The physics engine that carries them out.
         arm: The arm that carries them out.
-        plan_backend: The physics engine to plan in; None: pymunk where ``backend`` drives joints, else ``backend``.
+        plan_backend: The physics engine to plan in; None: where ``backend`` drives joints ``fast`` if installed, else pymunk;
+            for others ``backend``.
         plan_arm: The arm to plan with; None: ``arm``.
         topology: Computes persistence diagrams.
         goal: What is to be achieved.

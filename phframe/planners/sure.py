@@ -176,7 +176,7 @@ class _LazySearch:
 
     def _expand(self, node: int) -> Plan | None:
         """Grasp from a node if that can be done; else queue what can be pushed there."""
-        found = drives(self._pushing, self._search.state(node), self._fan)
+        found = self._drives(node)
         if isinstance(found, Infeasible):
             self._tree.close(node, found.reason)
             return None
@@ -207,30 +207,45 @@ class _LazySearch:
         """The plan that ends with a clean grasp from a node; a way out that stays between the walls comes first."""
         if self._options.grasp == "empty-corridor" and any(drive.blocking for drive in found[:1]):
             return None
-        free = [(drive, drive.grasp) for drive in found if isinstance(drive.grasp, Grasp)]
-        for drive, grasp in _distinct(sorted(free, key=_hazard)):
-            if self._is_over(node) or self._reach.refuses(drive):
-                continue
-            end, outcome = self._search.try_grasp(node, grasp)
-            why = outcome.reason or harm(self._pushing.scene, self._search.state(node), self._made(end), None)
-            if why and not (outcome.status is Status.RETRIEVED and self._options.harmful == "allowed"):
-                self._give_up(node, end, self._tree[end].motion, why)
-            elif (plan := self._carried_out(node, end, grasp)) is not None:
+        tried: set[bytes] = set()
+        questions = self._reach.questions
+        while (free := _least_hazard(found, tried)) is not None and not self._is_over(node):
+            tried.add(_poses(free[1]))
+            if (plan := self._try_grasp(node, *free)) is not None:
                 return plan
+            if (
+                self._reach.questions > questions
+            ):  # the arm reaches less than was thought: less deep grasps may take the place
+                questions, again = self._reach.questions, self._drives(node)
+                found = found if isinstance(again, Infeasible) else again
+        return None
+
+    def _drives(self, node: int) -> list[Drive] | Infeasible:
+        state = self._search.state(node)
+        return drives(self._pushing, state, self._fan, self._reach.rejects(state))
+
+    def _try_grasp(self, node: int, drive: Drive, grasp: Grasp) -> Plan | None:
+        """The plan that ends with a grasp from a node, if it is clean and comes true."""
+        end, outcome = self._search.try_grasp(node, grasp)
+        why = outcome.reason or harm(self._pushing.scene, self._search.state(node), self._made(end), None)
+        if not why or (outcome.status is Status.RETRIEVED and self._options.harmful == "allowed"):
+            return self._carried_out(node, end, drive, grasp)
+        self._tree.close(end, why)
+        self._learn(node, drive, grasp, self._tree[end].motion)
         return None
 
     def _is_over(self, node: int) -> bool:
         """Whether nothing is to be tried from a node any more: it does not come true, or not quite as it is."""
         return node in self._replaced or (self._confirmed is not None and self._confirmed.refutes(node))
 
-    def _carried_out(self, node: int, end: int, grasp: Grasp) -> Plan | None:
+    def _carried_out(self, node: int, end: int, drive: Drive, grasp: Grasp) -> Plan | None:
         """The plan that ends with a grasp from a node, if it comes true in the engine and by the arm that execute."""
         if self._confirmed is None:
             unreachable = self._task.reachable(grasp.action, self._search.state(node))
             if unreachable is None:
                 return self._sure(end, grasp)
             self._tree.close(end, unreachable.why)
-            self._reach.ask(self._search.state(node))
+            self._reach.ask(self._search.state(node), drive, grasp.action)
             return None
         twin = self._confirmed.of(node)
         if twin is None:
@@ -242,14 +257,14 @@ class _LazySearch:
         confirmed, why = self._confirmed.apply(node, grasp.action, self._tree[end].decision)
         if not why:
             return self._sure(confirmed, grasp)
-        self._give_up(node, end, self._tree[confirmed].motion, f"when confirmed: {why}")
+        self._tree.close(end, f"when confirmed: {why}")
+        self._learn(node, drive, grasp, self._tree[confirmed].motion)
         return None
 
-    def _give_up(self, node: int, end: int, motion: Motion | None, why: str) -> None:
-        """Close a grasp from a node; where the arm cannot follow it, look at which angles it could."""
-        self._tree.close(end, why)
+    def _learn(self, node: int, drive: Drive, grasp: Grasp, motion: Motion | None) -> None:
+        """Where the arm could not follow a grasp from a node, look at what it can do."""
         if motion is not None and motion.stopped is not None and motion.stopped.cause is StopCause.UNREACHABLE:
-            self._reach.ask(self._search.state(node))
+            self._reach.ask(self._search.state(node), drive, grasp.action)
 
     def _sure(self, end: int, grasp: Grasp) -> Plan | None:
         """The plan that ends with a grasp; None where samples of the world make it so unsure that others are looked at."""
@@ -318,12 +333,14 @@ def _hazard(free: tuple[Drive, Grasp]) -> tuple[bool, float, int]:
     return not grasp.withdraws_between_walls, -round(min(grasp.clearance, AMPLE), 3), drive.blocking
 
 
-def _distinct(free: list[tuple[Drive, Grasp]]) -> list[tuple[Drive, Grasp]]:
-    """Without the grasps that, turned against their drive, are the same as one before along another drive."""
-    found: dict[bytes, tuple[Drive, Grasp]] = {}
-    for drive, grasp in free:
-        found.setdefault(grasp.action.path.poses.tobytes(), (drive, grasp))
-    return list(found.values())
+def _least_hazard(found: list[Drive], tried: set[bytes]) -> tuple[Drive, Grasp] | None:
+    """The best grasp that was not tried, be it along another drive; None: there is none left."""
+    free = ((drive, drive.grasp) for drive in found if isinstance(drive.grasp, Grasp))
+    return min((each for each in free if _poses(each[1]) not in tried), key=_hazard, default=None)
+
+
+def _poses(grasp: Grasp) -> bytes:
+    return bytes(grasp.action.path.poses.tobytes())
 
 
 def _cost(decision: PushDecision, left: int) -> float:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from phframe.core import Condition, Infeasible, State
 from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.pushing.corridor import Corridor, corridor_at
-from phframe.pushing.grasp import Grasp
+from phframe.pushing.grasp import Grasp, Rejects
 from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.pushing import Pushing
 from phframe.pushing.retrieve import Retrieve
@@ -48,13 +48,16 @@ class Drive:
         return isinstance(self.grasp, Infeasible) and not self.grasp.blockers
 
 
-def drives(pushing: Pushing, state: State, fan: Sequence[float]) -> list[Drive] | Infeasible:
+def drives(
+    pushing: Pushing, state: State, fan: Sequence[float], rejects: Rejects = lambda _: None
+) -> list[Drive] | Infeasible:
     """The drives to the target where it is now: along the paper's corridor, and at the angles of a fan.
 
     Args:
         pushing: The geometry of the task.
         state: The world at rest.
         fan: Angles in the shelf frame (rad).
+        rejects: Tells why a grasp is not to be proposed; None: it may be.
 
     Returns:
         None at all where the paper has no corridor and the fan no angle; why, where the target cannot be retrieved by any.
@@ -71,8 +74,8 @@ def drives(pushing: Pushing, state: State, fan: Sequence[float]) -> list[Drive] 
     # The fan's angles are the same in every state, the paper's is not: each by themselves, what is known of the arm is kept.
     papers = int(isinstance(problem, PushProblem))
     grasps = [
-        *pushing.grasps_along(state, corridors[:papers]),
-        *pushing.grasps_along(state, corridors[papers:]),
+        *pushing.grasps_along(state, corridors[:papers], rejects),
+        *pushing.grasps_along(state, corridors[papers:], rejects),
     ]
     return [_drive(pushing, state, *each) for each in zip(corridors, grasps, strict=True)]
 

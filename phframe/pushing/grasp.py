@@ -60,7 +60,7 @@ class GraspFinder:
 
     def __init__(self, scene: Scene, arm: ArmShape, options: PushingOptions) -> None:
         row = scene.target_index
-        self._around = Surroundings(scene.shelf, scene.ids, scene.radii, row, arm.min_opening, options)
+        self._around = Surroundings(scene.shelf, scene.ids, scene.radii, arm.met(scene), row, arm.min_opening, options)
         self._fits = _fits(scene.shelf, arm, self._around.radius, options.neighbour_clearance)
         self._widest = arm.max_opening
         self._turns = [turn for turn in YAW_STEPS if abs(turn) <= options.max_grasp_turn + ROUNDING]

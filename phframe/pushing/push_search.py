@@ -154,7 +154,9 @@ class PushSearch:
             return self.fail(node, why)
         listed = ", ".join(f"{why} ({number})" for why, number in self._ends.most_common(3) if why)
         ended = f"; the search was ended by {limit}" if limit else ""
-        return self.fail(node, f"none of {len(self.tree) - 1} pushes leads to a grasp: {listed}{ended}")
+        return self.fail(
+            node, f"none of {len(self.tree) - 1} simulated actions leads to a clean grasp: {listed}{ended}"
+        )
 
     def hopeless(self, node: int, problem: PushProblem) -> str:
         """Why nothing more is to be pushed at a node, by the options ``max_actions`` and ``patience``; empty: go on."""

@@ -22,7 +22,7 @@ from phframe.core import (
 from phframe.geometry.arm_view import arm_view
 from phframe.pushing.corridor import Corridor, corridor_half_width, find_corridor, with_room
 from phframe.pushing.deviation import Deviation
-from phframe.pushing.grasp import Grasp, GraspFinder
+from phframe.pushing.grasp import Grasp, GraspFinder, Rejects
 from phframe.pushing.grouping import closest_component, merged_labels
 from phframe.pushing.options import PushingOptions
 from phframe.pushing.persistence import persistent_radii, usable_radii, usable_threshold
@@ -50,7 +50,7 @@ class Pushing:
         self.task, self.options = task, options
         self.scene = task.goal.scene(task.scene) if isinstance(task.goal, Retrieve) else task.scene
         self.half_width = corridor_half_width(options.half_width, self.scene, task.arm)
-        self._radii = self.scene.radii
+        self._radii, self._met = self.scene.radii, task.arm.met(self.scene)
         self._view = arm_view(self.scene.shelf, task.arm, task.arm.min_opening, options.wall_clearance)
         self._grasps = GraspFinder(self.scene, task.arm, options)
         obstacles = np.delete(self._radii, self.scene.target_index)
@@ -89,7 +89,7 @@ class Pushing:
         if blockers:
             counts |= np.isin(self.scene.ids, list(blockers))
         counts[self.scene.target_index] = False
-        return np.flatnonzero(counts & state.on_board)
+        return np.flatnonzero(counts & state.on_board & self._met)
 
     def diagram(self, problem: PushProblem) -> PersistenceDiagram:
         """The persistence diagram of the obstacles that count, by their landmarks: of cylinders, the centres."""
@@ -185,9 +185,11 @@ class Pushing:
             return found
         return replace(found, deviations=(*problem.deviations, *found.deviations))
 
-    def grasps_along(self, state: State, corridors: Sequence[Corridor]) -> list[Grasp | Infeasible]:
-        """The same along each of any corridors; see ``corridor_at``."""
-        return self._grasps.candidates(state, corridors, self.task.rejects)
+    def grasps_along(
+        self, state: State, corridors: Sequence[Corridor], rejects: Rejects = lambda _: None
+    ) -> list[Grasp | Infeasible]:
+        """The same along each of any corridors (see ``corridor_at``), without what is rejected besides."""
+        return self._grasps.candidates(state, corridors, lambda action: self.task.rejects(action) or rejects(action))
 
     def _generator(self, problem: PushProblem, chosen: IntArray) -> SweepGenerator:
         return SweepGenerator(

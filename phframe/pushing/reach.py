@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from phframe.core import (
     MOUTH_CLEARANCE,
@@ -56,6 +57,7 @@ class Surroundings:
         shelf: The shelf.
         ids: Of all objects, in the scene's order.
         radii: Of all objects ``(n,)`` (m).
+        met: Which objects the arm does not pass over ``(n,)``.
         row: Of the target among them.
         closed: Distance between the closed fingers (m).
         options: For clearances and speeds.
@@ -64,6 +66,7 @@ class Surroundings:
     shelf: Shelf
     ids: tuple[str, ...]
     radii: FloatArray
+    met: NDArray[np.bool_]
     row: int
     closed: float
     options: PushingOptions
@@ -92,9 +95,10 @@ class Reaches:
         self._around, self._fit, self.yaws = around, fit, yaws
         self._arm, walls = fit.view.silhouette(yaws), fit.view.walls(yaws)
         self._turns, self._ahead = walls.turns, walls.ahead
-        self._positions, self._counts = state.positions, state.on_board
+        self._positions, self._present = state.positions, state.on_board
         self._target = self._positions[around.row]
-        self._counts[around.row] = False
+        self._present[around.row] = False
+        self._counts = self._present & around.met
         self._tips = self._target + fit.past * self._ahead
         self._lengths = (self._tips[:, 0] + self._arm.front + MOUTH_CLEARANCE) / self._ahead[:, 0]
         self._from_corners, self._from_objects = self._distances()
@@ -138,7 +142,7 @@ class Reaches:
         if min(y, end_y) + south < 0.0 or max(y, end_y) + north > self._around.shelf.width:
             return False
         behind, beside = ((self._positions - self._target) @ self._turns[row]).T
-        met = (behind < 0.0) & (np.abs(beside) < self._around.radii + radius - TOUCHING) & self._counts
+        met = (behind < 0.0) & (np.abs(beside) < self._around.radii + radius - TOUCHING) & self._present
         return not bool(met.any())
 
     def _way_out(self, row: int) -> tuple[list[float], list[float]]:

@@ -83,6 +83,7 @@ class StraightPusher:
     def __init__(self, pushing: Pushing, options: StraightPushOptions) -> None:
         self._pushing, self._scene, self._options = pushing, pushing.scene, options
         arm = pushing.task.arm
+        self._met = arm.met(self._scene)
         self._view = arm_view(self._scene.shelf, arm, arm.min_opening, options.wall_clearance)
 
     def free_places(self, state: State, row: int, drive: StraightDrive, spacing: float) -> FloatArray:
@@ -112,6 +113,8 @@ class StraightPusher:
             return outside
         if not state.on_board[row]:
             return f"{name} has left the board"
+        if not self._met[row]:
+            return f"{name} is so low that the arm passes over it"
         if self.is_there(state, row, place):
             return f"{name} is at ({place[0]:g}, {place[1]:g}) already, to within {self._options.goal_radius:g} m"
         taken = np.flatnonzero(self._taken(state, row, place[None])[0])

@@ -29,20 +29,11 @@ from phframe.runtime.mounting import Told, mounted
 from phframe.runtime.noise import Noise
 from phframe.runtime.observer import Observer
 from phframe.runtime.particles import Particles
+from phframe.runtime.plan_backend import FITTED, default_plan_backend
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.sensor import Sensor
 from phframe.runtime.world import WorldSpec
-
-PLAN_BACKEND = "pymunk"
-"""Where plans are made that an engine of joints carries out: many times faster."""
-PLAN_OPTIONS: Mapping[str, Any] = {"standing_radius": 2.0 / 3.0, "arm_acceleration": 10.0}
-"""Of pymunk, where an engine in space carries the plans out; see docs/fidelity.md."""
-FITTED: Mapping[str, Mapping[str, Any]] = {
-    "pymunk": PLAN_OPTIONS,
-    "fast": {"arm_acceleration": 10.0, "object_friction": 0.15, "stall_lag": 0.02},
-}
-"""The same of every backend that was fitted to an engine in space."""
 
 
 def run(
@@ -169,7 +160,7 @@ def _plan_world(
 ) -> tuple[WorldSpec, dict[str, Mapping[str, Any]]]:
     """What to plan in, and its options before those given for it: as in execution, where backend or arm is the same."""
     drives_joints = load(Kind.BACKEND, world.backend).executes is JointTrajectory
-    backend = parts["plan_backend"][0] or (PLAN_BACKEND if drives_joints else world.backend)
+    backend = parts["plan_backend"][0] or (default_plan_backend() if drives_joints else world.backend)
     arm = parts["plan_arm"][0] or world.arm
     fitted = FITTED.get(backend, {}) if drives_joints and isinstance(backend, str) else {}
     inherited = {

@@ -52,7 +52,8 @@ def solve(
         tolerance: What counts as differing (m).
         simulations: Simulated actions for planning, replans included; None: no limit.
         workers: Processes for planners that try many actions at once.
-        plan_backend: Where to plan; None: in pymunk where ``backend`` drives joints, else in ``backend``.
+        plan_backend: Where to plan; None: where ``backend`` drives joints in ``fast`` if installed, else in pymunk; for others in
+            ``backend``.
         plan_arm: The arm to plan with; None: ``arm``.
         noise: By how much what the planner believes differs from what is true: ``position`` (m) and ``friction``
             (relative), standard deviations, as a mapping or as text such as ``position=0.005,friction=0.3``.

@@ -288,6 +288,11 @@ class SoftWalls(OtherScene):
         return replace(scene.shelf, depth=scene.shelf.depth + 0.02, width=scene.shelf.width + 0.02)
 
 
+class NothingIsLow(OtherScene):
+    def altered(self, item: SceneObject) -> SceneObject:
+        return replace(item, shape=replace(item.shape, height=0.12))
+
+
 class ThinObjects(OtherScene):
     def altered(self, item: SceneObject) -> SceneObject:
         return replace(item, shape=replace(item.shape, radius=0.5 * item.radius))

@@ -140,7 +140,7 @@ def test_where_the_paper_has_no_corridor_there_is_a_plan_or_a_reason(options: di
     plan = planned(
         narrow, {"half_width": 0.12, "grasp": "empty-corridor", "max_nodes": 20, "target_pushes": False, **options}
     )
-    assert plan.succeeded or len(plan.reason) > len("none of 0 pushes leads to a grasp: ")
+    assert plan.succeeded or len(plan.reason) > len("none of 0 simulated actions leads to a clean grasp: ")
     plan = planned(narrow, {"half_width": 0.12, "fan": "paper", "target_pushes": False})
     assert plan.status is Status.FAILED
     assert "0.2 m wide at the target, the corridor 0.24 m" in plan.reason

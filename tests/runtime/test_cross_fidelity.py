@@ -12,6 +12,7 @@ import phframe
 from phframe.arms.planar import PlanarArm
 from phframe.core import IncompatibleError, JointTrajectory, OptionError, RunSpec, Scene, Status, Step
 from phframe.runtime.observer import Frames, MountedArm, Observer
+from phframe.runtime.plan_backend import default_plan_backend
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.summary import summarize
 from phframe.runtime.world import World, WorldSpec
@@ -20,16 +21,17 @@ pytest.importorskip("mujoco")
 pytestmark = pytest.mark.needs_mujoco
 
 SCENE = "papallas/s02"
+IN_PLANE = default_plan_backend()
 
 
-def test_it_plans_in_pymunk_and_drives_joints_in_mujoco(tmp_path: Path) -> None:
+def test_it_plans_in_the_plane_and_drives_joints_in_mujoco(tmp_path: Path) -> None:
     episode = phframe.solve(SCENE, backend="mujoco")
     assert episode.status is Status.RETRIEVED
-    assert (episode.spec.backend, episode.spec.plan_backend, episode.spec.plan_arm) == ("mujoco", "pymunk", "planar")
+    assert (episode.spec.backend, episode.spec.plan_backend, episode.spec.plan_arm) == ("mujoco", IN_PLANE, "planar")
     assert all(isinstance(step.trajectory, JointTrajectory) for step in episode.steps)
     summary = summarize(episode)
-    assert (summary["plan_backend"], summary["plan_arm"]) == ("pymunk", "planar")
-    assert {"pymunk", "mujoco"} <= set(summary["versions"])
+    assert (summary["plan_backend"], summary["plan_arm"]) == (IN_PLANE, "planar")
+    assert {"numba" if IN_PLANE == "fast" else "pymunk", "mujoco"} <= set(summary["versions"])
     assert 0.0 < summary["motion_planning_time"] < 1.0
     assert 0.0 < summary["tracking_error"] < 0.01
     error = summary["prediction_error"]

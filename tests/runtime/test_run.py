@@ -14,7 +14,8 @@ from phframe.planners.ooa import OOA
 from phframe.planners.phia import PHIA
 from phframe.pushing.retrieve import Retrieve
 from phframe.runtime.files import load, save
-from phframe.runtime.run import PLAN_OPTIONS, prepare
+from phframe.runtime.plan_backend import FITTED, default_plan_backend
+from phframe.runtime.run import prepare
 from phframe.topology.single_linkage import SingleLinkage
 
 EASY = "vieira/simple-03"
@@ -99,7 +100,7 @@ def test_a_run_whose_plans_an_engine_of_joints_carries_out_is_kept_whole() -> No
         kept = prepare(spec)
         assert prepare(kept.spec).spec == kept.spec
         assert prepare(kept.spec).plan_world == kept.plan_world
-    assert prepare(RunSpec(EASY, backend="mujoco")).spec.options["plan_backend"] == PLAN_OPTIONS
+    assert prepare(RunSpec(EASY, backend="mujoco")).spec.options["plan_backend"] == FITTED[default_plan_backend()]
 
 
 def test_an_episode_is_repeated_from_what_it_keeps(tmp_path: Path) -> None:

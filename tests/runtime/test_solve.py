@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import platform
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +38,9 @@ def test_the_setup_is_noted() -> None:
     assert {group: dict(values) for group, values in spec.options.items()} == {"planner": {"margin": 0.02}}
     assert {"python", "phframe", "numpy", "pymunk", "scipy"} <= set(episode.versions)
     assert "mujoco" not in episode.versions
+    architecture, *instructions = episode.versions["cpu"].split()
+    assert architecture == platform.machine()
+    assert instructions
 
 
 def test_both_topology_engines_come_to_the_same() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from phframe.backends.fast_.compiled import compiled, length
 from phframe.backends.fast_.distances import FAR, to_part, to_wall
 from phframe.backends.fast_.layout import (
+    BOTTOM,
     CORNER_X,
     CORNER_Y,
     END,
@@ -15,6 +16,7 @@ from phframe.backends.fast_.layout import (
     PRESENT,
     RADIUS,
     REACH,
+    TOP,
     WIDTH,
     FastWorld,
     X,
@@ -44,7 +46,7 @@ def _to_object(world: FastWorld, row: int, held: int, best: float) -> float:
     x, y, radius = world.bodies[row, X], world.bodies[row, Y], world.bodies[row, RADIUS]
     for part in range(len(world.parts)):
         around = length(x - world.parts[part, MIDDLE_X], y - world.parts[part, MIDDLE_Y]) - world.parts[part, REACH]
-        if around - radius < best:
+        if around - radius < best and world.parts[part, BOTTOM] < world.bodies[row, TOP]:
             distance, _, _ = to_part(world.parts, world.corners, part, x, y)
             best = min(best, distance - radius)
     if held >= 0:

@@ -13,6 +13,7 @@ from phframe.backends.fast_.layout import (
     BODY_B,
     BODY_X,
     BODY_Y,
+    BOTTOM,
     BY_INERTIA,
     BY_MASS,
     CORNER_X,
@@ -43,6 +44,7 @@ from phframe.backends.fast_.layout import (
     SIDE,
     SPIN,
     STEPS,
+    TOP,
     TOUCHER_A,
     TOUCHER_B,
     VX,
@@ -132,12 +134,7 @@ def _contacts_of_arm(world: FastWorld, h: float, reach: float, turn: float, open
             continue
         x, y, radius = world.bodies[row, X], world.bodies[row, Y], world.bodies[row, RADIUS]
         for part in range(parts):
-            if (
-                length(x - world.parts[part, MIDDLE_X], y - world.parts[part, MIDDLE_Y])
-                - world.parts[part, REACH]
-                - radius
-                >= reach
-            ):
+            if _is_apart(world, part, row, reach):
                 continue
             distance, nx, ny = to_part(world.parts, world.corners, part, x, y)
             if distance - radius >= reach:
@@ -153,6 +150,14 @@ def _contacts_of_arm(world: FastWorld, h: float, reach: float, turn: float, open
     for part in range(parts):
         found = _part_to_walls(world, h, reach, turn, opening, part, found)
     return _held_to_walls(world, h, reach, turn, found) if held >= 0 else found
+
+
+@compiled
+def _is_apart(world: FastWorld, part: int, row: int, reach: float) -> bool:
+    """Whether a part of the arm passes over an object, or is beyond reach of it (m) by the circles around them."""
+    dx, dy = world.bodies[row, X] - world.parts[part, MIDDLE_X], world.bodies[row, Y] - world.parts[part, MIDDLE_Y]
+    apart = length(dx, dy) - world.parts[part, REACH] - world.bodies[row, RADIUS]
+    return bool(apart >= reach or world.parts[part, BOTTOM] >= world.bodies[row, TOP])
 
 
 @compiled

@@ -26,6 +26,7 @@ from phframe.backends.fast_.layout import (
     PRESENT,
     RADIUS,
     SPIN,
+    TOP,
     TURN,
     VX,
     VY,
@@ -55,7 +56,7 @@ def forget_between(world: FastWorld) -> None:
 
 @compiled
 def _widest_gap(world: FastWorld, row: int) -> float:
-    """The larger of the distances from the fingers' inner faces to an object's centre (m); -1 where it is not between."""
+    """The larger of the distances from the fingers' inner faces to an object's centre (m); -1 where it is not between them."""
     arm = world.arm
     cosine, sine = math.cos(arm[YAW]), math.sin(arm[YAW])
     dx, dy = world.bodies[row, X] - arm[BODY_X], world.bodies[row, Y] - arm[BODY_Y]
@@ -64,6 +65,8 @@ def _widest_gap(world: FastWorld, row: int) -> float:
     for finger in range(len(world.fingers)):
         gap = arm[OPENING] / 2.0 - world.fingers[finger, 0] * y
         if not (world.fingers[finger, 1] <= x <= world.fingers[finger, 2]) or gap < 0.0:
+            return -1.0
+        if world.fingers[finger, 3] >= world.bodies[row, TOP]:
             return -1.0
         widest = max(widest, gap)
     return widest

@@ -85,7 +85,9 @@ AWAKE, BETWEEN, ORDER = 15, 16, 17
 """1 or 2 for what may move in this step; 1 for what stood between the fingers as they began to close; room for a list."""
 RADIUS, MASS, INERTIA, MOST_FRICTION, FRICTION_LEVER = 18, 19, 20, 21, 22
 """Constants: metres, kg, kg m^2; mu m g (N); the lever c at which the board resists turning (m)."""
-BODY_FIELDS = 23
+TOP = 23
+"""How tall it is (m), less what only touches."""
+BODY_FIELDS = 24
 
 # Columns of FastWorld.parts.
 SIDE, FIRST, END = 0, 1, 2
@@ -94,7 +96,9 @@ OWN_X, OWN_Y, REACH = 3, 4, 5
 """A circle around it, in the fingertip frame (m)."""
 MIDDLE_X, MIDDLE_Y = 6, 7
 """Where that is in the shelf."""
-PART_FIELDS = 8
+BOTTOM = 8
+"""Above the board (m): it passes over what is no taller."""
+PART_FIELDS = 9
 
 # Columns of FastWorld.corners; the first two are OWN_X and OWN_Y of a corner.
 OWN_NX, OWN_NY = 5, 6
@@ -136,11 +140,11 @@ class FastWorld(NamedTuple):
     """A world, constants included, and room to compute in.
 
     Attributes:
-        bodies: ``(n + 2, 23)``.
+        bodies: ``(n + 2, 24)``.
         arm: ``(33,)``.
-        parts: ``(p, 8)``.
+        parts: ``(p, 9)``.
         corners: ``(v, 11)``.
-        fingers: ``(f, 3)`` of each moving finger: side, least and greatest x (m).
+        fingers: ``(f, 4)`` of each moving finger: side, least and greatest x, bottom above the board (m).
         rows: ``(r, 17)`` contacts.
         remembered: ``(t, t, 3)`` normal and tangential force of contacts in the last step they were in (N), and that step.
     """

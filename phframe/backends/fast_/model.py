@@ -9,7 +9,16 @@ import numpy as np
 from phframe.backends.contract import GRAVITY
 from phframe.backends.fast_ import layout
 from phframe.backends.fast_.layout import FastRun, FastWorld
-from phframe.core import ArmShape, Cylinder, FloatArray, Scene, SceneObject, UnknownShapeError, coulomb_with_board
+from phframe.core import (
+    GRAZING,
+    ArmShape,
+    Cylinder,
+    FloatArray,
+    Scene,
+    SceneObject,
+    UnknownShapeError,
+    coulomb_with_board,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +66,7 @@ def _bodies(scene: Scene, figures: FastFigures) -> FloatArray:
         bodies[row, layout.BY_MASS], bodies[row, layout.BY_INERTIA] = 1.0 / mass, 1.0 / inertia
         most = coulomb_with_board(scene, item) * mass * GRAVITY
         bodies[row, layout.RADIUS : layout.FRICTION_LEVER + 1] = radius, mass, inertia, most, lever
+        bodies[row, layout.TOP] = item.shape.height - GRAZING
     return bodies
 
 
@@ -73,6 +83,7 @@ def _parts(shape: ArmShape) -> FloatArray:
     for row, outline in enumerate(shape.closed):
         end = first + len(outline.vertices)
         parts[row, : layout.REACH + 1] = outline.side, first, end, *_circle(outline.vertices)
+        parts[row, layout.BOTTOM] = shape.height + outline.bottom
         first = end
     return parts
 
@@ -98,8 +109,8 @@ def _circle(corners: FloatArray) -> tuple[float, float, float]:
 
 def _fingers(shape: ArmShape) -> FloatArray:
     fingers = [outline for outline in shape.closed if outline.side]
-    rows = [(f.side, f.vertices[:, 0].min(), f.vertices[:, 0].max()) for f in fingers]
-    return np.array(rows, dtype=np.float64).reshape(-1, 3)
+    rows = [(f.side, f.vertices[:, 0].min(), f.vertices[:, 0].max(), shape.height + f.bottom) for f in fingers]
+    return np.array(rows, dtype=np.float64).reshape(-1, 4)
 
 
 def _settings(scene: Scene, shape: ArmShape, figures: FastFigures) -> FloatArray:

@@ -135,7 +135,16 @@ class ChipmunkSpace:
         self._bodies.append(lib.cpSpaceAddBody(self.handle, handle))
         return ChipmunkBody(handle)
 
-    def add_shape(self, shape: Handle, friction: float, kind: int, group: int = 0) -> Handle:
+    def add_shape(
+        self,
+        shape: Handle,
+        friction: float,
+        kind: int,
+        group: int = 0,
+        *,
+        categories: int = EVERYTHING,
+        mask: int = EVERYTHING,
+    ) -> Handle:
         """Add a new shape.
 
         Args:
@@ -143,10 +152,12 @@ class ChipmunkSpace:
             friction: Its factor in Coulomb's coefficient.
             kind: Its collision type.
             group: Shapes of the same group pass through one another, but for group 0.
+            categories: Its own, a bit each.
+            mask: Categories of what it does not pass over or under.
         """
         lib.cpShapeSetFriction(shape, friction)
         lib.cpShapeSetCollisionType(shape, kind)
-        set_group(shape, group)
+        set_group(shape, group, categories=categories, mask=mask)
         self._shapes.append(lib.cpSpaceAddShape(self.handle, shape))
         return shape
 
@@ -212,9 +223,9 @@ def set_corners(shape: Handle, corners: Sequence[Point]) -> None:
     lib.cpPolyShapeSetVertsRaw(shape, len(corners), corners)
 
 
-def set_group(shape: Handle, group: int) -> None:
-    """Shapes of the same group pass through one another, but for group 0."""
-    lib.cpShapeSetFilter(shape, (group, EVERYTHING, EVERYTHING))
+def set_group(shape: Handle, group: int, *, categories: int = EVERYTHING, mask: int = EVERYTHING) -> None:
+    """Shapes of the same group pass through one another, but for group 0; arguments as for ``add_shape``."""
+    lib.cpShapeSetFilter(shape, (group, categories, mask))
 
 
 def limit(joint: Handle, force: float) -> Handle:

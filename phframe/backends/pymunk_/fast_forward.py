@@ -55,8 +55,12 @@ def free_fraction(world: ShelfSpace, start: Pose, end: Pose) -> float:
 
 
 def _obstacles(world: ShelfSpace) -> list[tuple[Point, float]]:
-    """Centres and radii, the margin included, of the objects and, as points, of the walls' corners at the mouth (m)."""
-    objects = [(item.body.position, item.radius + MARGIN) for item in world.items.values() if item.name != world.held]
+    """Centres and radii, the margin included, of the objects and, as points, of the walls' corners at the mouth (m).
+
+    What all of the arm passes over is in the way of nothing but what is held.
+    """
+    met = [item for item in world.items.values() if item.meets_arm] if world.held is None else world.items.values()
+    objects = [(item.body.position, item.radius + MARGIN) for item in met if item.name != world.held]
     return [*objects, ((0.0, 0.0), MARGIN), ((0.0, world.scene.shelf.width), MARGIN)]
 
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from phframe.backends.pymunk_.chipmunk import Point, set_corners, set_group
-from phframe.backends.pymunk_.world import ARM_GROUP, MovingFinger, ShelfItem, ShelfSpace, lay_floor
+from phframe.backends.pymunk_.world import ARM_GROUP, OTHERS, MovingFinger, ShelfItem, ShelfSpace, lay_floor
 
 TOUCH = 5e-4
 """A finger this near (m) to an object touches it."""
@@ -42,8 +42,12 @@ def set_opening(world: ShelfSpace, opening: float) -> None:
 
 
 def between_fingers(world: ShelfSpace) -> list[ShelfItem]:
-    """The objects whose centres lie between the open fingers."""
-    return [item for item in world.items.values() if all(gap >= 0.0 for gap in _gaps(world, item))]
+    """The objects whose centres lie between the open fingers, and that these do not pass over."""
+    return [
+        item
+        for item in world.items.values()
+        if all(gap >= 0.0 for gap in _gaps(world, item)) and all(item.meets & f.category for f in world.arm.fingers)
+    ]
 
 
 def gripped(world: ShelfSpace, items: Sequence[ShelfItem]) -> ShelfItem | None:
@@ -82,7 +86,7 @@ def hold(world: ShelfSpace, item: ShelfItem, command: float) -> None:
         command: The opening that the fingers go on being told to have (m), and squeeze for.
     """
     lay_floor(world, item)
-    set_group(item.shape, ARM_GROUP)
+    set_group(item.shape, ARM_GROUP, categories=OTHERS, mask=item.meets)
     arm, body, at = world.arm.body, item.body, item.body.position
     pivot = world.space.pivot(arm, body, arm.to_local(at), body.to_local(at))
     world.grip = pivot, world.space.gear(arm, body, body.angle - arm.angle)
@@ -94,7 +98,7 @@ def release(world: ShelfSpace) -> None:
     """Let go of what is held: it stands on the board, free, where it is."""
     item = world.items[world.held or ""]
     world.space.remove_joints(world.grip)
-    set_group(item.shape, 0)
+    set_group(item.shape, 0, categories=OTHERS, mask=item.meets)
     world.grip, world.held = (), None
 
 

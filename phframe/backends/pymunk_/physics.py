@@ -17,7 +17,7 @@ from phframe.backends.pymunk_.drive import PymunkDrive
 from phframe.backends.pymunk_.gripper import hold, place_arm, set_opening
 from phframe.backends.pymunk_.measures import take_measures
 from phframe.backends.pymunk_.state import PymunkSnapshot, read_state, set_in_motion, take_snapshot
-from phframe.backends.pymunk_.world import PymunkModel, PymunkSurfaces, ShelfSpace, build_world, trimmed
+from phframe.backends.pymunk_.world import PymunkModel, PymunkSurfaces, ShelfSpace, build_world, meeting, trimmed
 from phframe.core import (
     ArmError,
     FloatArray,
@@ -90,7 +90,9 @@ class PymunkPhysics(Physics[PymunkOptions]):
         o, shape = self.options, self.arm.shape
         surfaces = PymunkSurfaces(o.object_friction, o.arm_friction, o.standing_radius)
         outlines = tuple(trimmed(outline.vertices) for outline in shape.closed)
-        return PymunkModel(self.scene, shape, outlines, take_measures(shape), surfaces, o.iterations, o.arm_mass)
+        heights = {item.shape.height for item in self.scene.objects}
+        met = {height: meeting(shape, height) for height in heights}
+        return PymunkModel(self.scene, shape, outlines, take_measures(shape), surfaces, o.iterations, o.arm_mass, met)
 
     def execute(
         self, trajectory: Trajectory, *, settle: Settle | None, stop: Stop | None = None, watch: Watch | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -25,6 +26,8 @@ from phframe.core import ArmShape, Condition, FloatArray, Scene, SceneObject, St
 WALL_THICKNESS = 0.1
 ARM, OBJECT, WALL = 1, 2, 3
 """Collision types."""
+OTHERS = 1 << 31
+"""The category of what is no part of the arm; each part has one of its own, from the first bit."""
 ARM_GROUP = 1
 """What passes through one another: the parts of the arm and what it holds."""
 CENTER = (0.0, 0.0)
@@ -78,6 +81,7 @@ class ShelfItem:
         foot: Its outline, and what it stands with.
         friction: Most that the board resists its sliding with, ``mu m g`` (N).
         floor: Joints of limited force that stand for that friction; none yet while nothing can have moved it.
+        meets: Categories of what it touches where they meet: all but the parts of the arm that pass over it.
         on_board: Whether it stands on the board; what is held outside does not.
     """
 
@@ -88,6 +92,7 @@ class ShelfItem:
     body: ChipmunkBody
     foot: Footprint
     friction: float
+    meets: int
     floor: tuple[Handle, ...] = ()
     on_board: bool = True
 
@@ -95,6 +100,11 @@ class ShelfItem:
     def shape(self) -> Handle:
         """Its outline."""
         return self.foot.primitive
+
+    @property
+    def meets_arm(self) -> bool:
+        """Whether any part of the arm meets it."""
+        return self.meets != OTHERS
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +117,7 @@ class MovingFinger:
         corners: As it lies when closed, in the fingertip frame (m).
         back: Least x of the corners (m).
         front: Greatest x of the corners (m).
+        category: Of its shape.
     """
 
     polygon: Handle
@@ -114,6 +125,7 @@ class MovingFinger:
     corners: tuple[Point, ...]
     back: float
     front: float
+    category: int
 
 
 @dataclass(slots=True)
@@ -197,6 +209,7 @@ class PymunkModel:
         surfaces: Coefficients of friction.
         iterations: Of the solver, per step.
         arm_mass: Inertia of the arm as the world feels it (kg).
+        meeting: Categories of the parts of the arm that meet what is so tall (m), for the heights of all objects.
     """
 
     scene: Scene
@@ -206,6 +219,17 @@ class PymunkModel:
     surfaces: PymunkSurfaces
     iterations: int
     arm_mass: float
+    meeting: Mapping[float, int]
+
+
+def category_of(part: int) -> int:
+    """The category of a part of the arm, by its place among the outlines; from the 31st on they share one."""
+    return 1 << min(part, 30)
+
+
+def meeting(shape: ArmShape, height: float) -> int:
+    """The categories of the parts of an arm that meet what is so tall (m)."""
+    return sum({category_of(part) for part, meets in enumerate(shape.meets(height)) if meets})
 
 
 def build_world(model: PymunkModel, state: State) -> ShelfSpace:
@@ -214,12 +238,12 @@ def build_world(model: PymunkModel, state: State) -> ShelfSpace:
     space = ChipmunkSpace(model.iterations, SLOP)
     walls = _add_walls(space, scene, surfaces)
     found = zip(scene.objects, state.poses.tolist(), state.conditions, strict=True)
-    items, spilled, toppled, factor = {}, {}, set(), surfaces.object_factor
+    items, spilled, toppled = {}, {}, set()
     for item, pose, condition in found:
         if condition is Condition.SPILLED:
             spilled[item.id] = pose
         else:
-            items[item.id] = _add_item(space, scene, item, pose, factor)
+            items[item.id] = _add_item(space, model, item, pose)
         if condition is Condition.TOPPLED:
             toppled.add(item.id)
     arm = _add_arm(space, model)
@@ -257,13 +281,14 @@ def _add_walls(space: ChipmunkSpace, scene: Scene, surfaces: PymunkSurfaces) -> 
     return walls
 
 
-def _add_item(space: ChipmunkSpace, scene: Scene, item: SceneObject, pose: list[float], factor: float) -> ShelfItem:
+def _add_item(space: ChipmunkSpace, model: PymunkModel, item: SceneObject, pose: list[float]) -> ShelfItem:
     (x, y, *_), radius = pose, item.radius
-    friction = coulomb_with_board(scene, item) * item.mass * GRAVITY
+    friction = coulomb_with_board(model.scene, item) * item.mass * GRAVITY
     foot = footprint(space, item.shape, item.mass, friction)
     foot.body.position, foot.body.angle = (x, y), yaw_of(pose)
-    space.add_shape(foot.primitive, factor, OBJECT)
-    return ShelfItem(item, item.id, radius, (x, y, radius), foot.body, foot, friction)
+    meets = OTHERS | model.meeting[item.shape.height]
+    space.add_shape(foot.primitive, model.surfaces.object_factor, OBJECT, categories=OTHERS, mask=meets)
+    return ShelfItem(item, item.id, radius, (x, y, radius), foot.body, foot, friction, meets)
 
 
 def lay_floor(world: ShelfSpace, item: ShelfItem) -> None:
@@ -300,10 +325,10 @@ def _add_arm(space: ChipmunkSpace, model: PymunkModel) -> DrivenArm:
     space.gear(carrier, body, 0.0)
     friction = model.surfaces.partner_factor(model.surfaces.arm)
     names, fingers = {}, []
-    for outline, corners in zip(model.shape.closed, model.outlines, strict=True):
-        part = space.add_shape(polygon(body, corners), friction, ARM, ARM_GROUP)
+    for number, (outline, corners) in enumerate(zip(model.shape.closed, model.outlines, strict=True)):
+        part = space.add_shape(polygon(body, corners), friction, ARM, ARM_GROUP, categories=category_of(number))
         names[part] = outline.part
         if outline.side:
             depths = [x for x, _ in corners]
-            fingers.append(MovingFinger(part, outline.side, corners, min(depths), max(depths)))
+            fingers.append(MovingFinger(part, outline.side, corners, min(depths), max(depths), category_of(number)))
     return DrivenArm(body, carrier, drive, names, tuple(fingers))

@@ -13,6 +13,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from phframe.bench.meters.certainty import measure_certainty
 from phframe.bench.meters.ensemble import measure_ensemble
 from phframe.bench.meters.outcomes import Outcome, Tally, deviations, run_suite, tally
 from phframe.bench.meters.overhead import measure
@@ -24,7 +25,7 @@ from phframe.runtime.scenes import scene_names
 
 WHAT = (
     "suites: solve the published scenes; calibrate: fit a planar backend to MuJoCo; "
-    "ensemble: the same sweeps in all engines"
+    "ensemble: the same sweeps in all engines; certainty: how often plans come off that say how sure they are"
 )
 PUBLISHED = ("vieira", "papallas")
 
@@ -44,6 +45,9 @@ def _measure(given: argparse.Namespace, console: Console) -> None:
         figures = fit_in_space(console, given.scenes, scenes, given.backend)
     elif given.what == "ensemble":
         figures = measure_ensemble(console, given.scenes, scenes)
+    elif given.what == "certainty":
+        names = [*scenes, *(f"random/{seed}" for seed in range(1, given.scenes + 1))]
+        figures = measure_certainty(console, names, given.seeds, given.backend)
     elif given.what == "suites":
         figures = {"suites": _suites(console, given, scenes)}
     else:
@@ -60,12 +64,17 @@ def _measure(given: argparse.Namespace, console: Console) -> None:
 def command_line() -> argparse.ArgumentParser:
     """What can be asked for."""
     parser = argparse.ArgumentParser(prog="python -m phframe.bench.meters", description="Measure phframe.")
-    parser.add_argument("what", nargs="?", choices=["all", "suites", "calibrate", "ensemble"], default="all", help=WHAT)
+    parser.add_argument(
+        "what", nargs="?", choices=["all", "suites", "calibrate", "ensemble", "certainty"], default="all", help=WHAT
+    )
     parser.add_argument("--planners", nargs="+", default=["phia", "ooa"], help="planners to run on the suites")
     parser.add_argument("--backend", default="pymunk", help="in which plans are carried out, or that is fitted")
     parser.add_argument("--arm", default="planar", help="that carries them out")
     parser.add_argument(
         "--scenes", type=int, default=40, help="random scenes to fit to, and as many to judge by; or to sweep in"
+    )
+    parser.add_argument(
+        "--seeds", type=int, default=5, help="how often the noise is drawn in each scene, for certainty"
     )
     parser.add_argument(
         "--out", type=Path, help="file for the figures; the default is runs/bench.json or runs/calibrate.json"

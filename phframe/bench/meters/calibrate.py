@@ -13,7 +13,7 @@ from typing import Any
 
 from phframe.bench.meters.sweeps import PlannedSweep, Score, compare, outcomes, planned_sweeps, score
 from phframe.core import State
-from phframe.runtime.run import FITTED, PLAN_OPTIONS
+from phframe.runtime.plan_backend import FITTED, PYMUNK_FITTED
 
 Values = Mapping[str, float | None]
 GRID: Mapping[str, tuple[float | None, ...]] = {
@@ -71,7 +71,7 @@ class Tuning:
 TUNINGS = {
     tuning.backend: tuning
     for tuning in (
-        Tuning("pymunk", GRID, BEFORE, {**BEFORE, **PLAN_OPTIONS}),
+        Tuning("pymunk", GRID, BEFORE, {**BEFORE, **PYMUNK_FITTED}),
         Tuning("fast", FAST_GRID, FAST_BEFORE, {**FAST_BEFORE, **FITTED["fast"]}),
     )
 }
@@ -149,7 +149,7 @@ def calibrate(
     tuning, reference = TUNINGS[backend], TUNINGS[REFERENCE]
     tell("sweeping in MuJoCo")
     train, held_back = _random(range(1, scenes + 1)), _random(range(scenes + 1, 2 * scenes + 1))
-    first = _observed(planned_sweeps(published, PLAN_OPTIONS, first=True))
+    first = _observed(planned_sweeps(published, PYMUNK_FITTED, first=True))
     fitted = fit(lambda values: train.score(values, backend), tell, tuning.before, tuning.grid)
     sets = (("fitted to", train), ("held back", held_back), ("first, published", first))
     judged = tuple(

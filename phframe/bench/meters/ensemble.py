@@ -17,7 +17,7 @@ from rich.table import Table
 from phframe.bench.meters.sweeps import PlannedSweep, Score, compare, outcomes, planned_sweeps, score
 from phframe.core import NotInstalledError, State
 from phframe.registry import Kind, load
-from phframe.runtime.run import FITTED, PLAN_OPTIONS
+from phframe.runtime.plan_backend import FITTED, PYMUNK_FITTED
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,8 +70,8 @@ def measure_ensemble(console: Console, scenes: int, published: Sequence[str]) ->
     """
     members = [member for member in MEMBERS if _installed(member.backend)]
     with console.status("planning sweeps") as status:
-        sweeps = planned_sweeps(published, PLAN_OPTIONS, first=True)
-        sweeps += planned_sweeps([f"random/{seed}" for seed in range(1, scenes + 1)], PLAN_OPTIONS)
+        sweeps = planned_sweeps(published, PYMUNK_FITTED, first=True)
+        sweeps += planned_sweeps([f"random/{seed}" for seed in range(1, scenes + 1)], PYMUNK_FITTED)
         pairs = _pairs(sweeps, members, status.update)
     _print(console, len(sweeps), pairs)
     return {"ensemble": [asdict(pair) for pair in pairs]}

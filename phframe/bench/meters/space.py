@@ -16,7 +16,7 @@ from phframe.bench.meters.simulation import BARE, BARS, Simulation, measure_simu
 from phframe.bench.meters.sweeps import Prediction, compare, outcomes, planned_sweeps, score
 from phframe.core import NotInstalledError, OptionError, motion_planner_of
 from phframe.registry import Kind, create, load
-from phframe.runtime.run import PLAN_OPTIONS
+from phframe.runtime.plan_backend import PYMUNK_FITTED
 from phframe.runtime.scenes import find_scene
 
 ENGINE = "mujoco"
@@ -104,8 +104,8 @@ def _add_simulation(table: Table, backend: str, rows: Sequence[Simulation]) -> N
 def _predictions(console: Console, scenes: Sequence[str]) -> list[Prediction]:
     """Of the first sweep of each scene, as it is planned for the engine."""
     with console.status(f"first sweeps in {ENGINE}"):
-        sweeps = planned_sweeps(scenes, PLAN_OPTIONS, first=True)
-        return compare(sweeps, outcomes(sweeps, "pymunk", PLAN_OPTIONS), outcomes(sweeps, ENGINE))
+        sweeps = planned_sweeps(scenes, PYMUNK_FITTED, first=True)
+        return compare(sweeps, outcomes(sweeps, "pymunk", PYMUNK_FITTED), outcomes(sweeps, ENGINE))
 
 
 def _add_prediction(table: Table, predictions: Sequence[Prediction]) -> None:

@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from phframe.core import ArmState, FloatArray, GripperPath, Phase, Scene, Settle, State
+from phframe.core import ArmState, Cylinder, FloatArray, GripperPath, Phase, Scene, SceneObject, Settle, State
 from phframe.testing.check import Check, Faults, check
 from phframe.testing.expect import expect, expect_at_most, expect_equal
 from phframe.testing.physics.paths import (
@@ -19,6 +19,7 @@ from phframe.testing.physics.paths import (
     cylinder,
     drive_in,
     finger_length,
+    grasp,
     path,
     scene_of,
     sweep,
@@ -100,6 +101,20 @@ def pushes_move_what_is_in_the_way(subject: PhysicsUnderTest) -> Faults:
         yield from expect(
             second >= first + 0.06 - 2.0 * slack, "'second' a diameter ahead of 'first'", f"{second:.4f} m"
         )
+
+
+@check
+def the_arm_passes_over_what_is_lower(subject: PhysicsUnderTest) -> Faults:
+    """Outline.bottom: a part of the arm touches nothing that is no taller; its fingers close on nothing there."""
+    low = Cylinder(0.03, 0.8 * (subject.arm.shape.height + min(part.bottom for part in subject.arm.shape.closed)))
+    flat = SceneObject("flat", low, (0.2, MIDDLE), mass=0.3)
+    with on_stand(subject, scene_of(flat, cylinder("tall", 0.45, 0.1))) as stand:
+        for way in (sweep(0.3, MIDDLE - 0.05, MIDDLE + 0.05), grasp(subject.arm, 0.2)):
+            made = stand.run(stand.start, way)
+            moved = float(made.state.displacement(stand.start)[0])
+            yield from expect_at_most(moved, subject.tolerances.sunk, "how far the arm moved what it passes over (m)")
+            yield from expect_equal(made.motion.contacts, (), "the contacts with what it passes over")
+            yield from expect_equal(made.state.held, None, "what is held")
 
 
 @check
@@ -204,6 +219,7 @@ FORCE_CHECKS: tuple[Check[PhysicsUnderTest], ...] = (
     walls_hold_the_arm,
     nothing_passes_through_anything,
     pushes_move_what_is_in_the_way,
+    the_arm_passes_over_what_is_lower,
     a_load_too_heavy_stalls_the_arm,
     forces_are_those_of_friction,
     a_stalled_arm_stands_still_and_can_go_back,

@@ -15,12 +15,13 @@ from phframe.bench.meters.calibrate import BEFORE, GAIN, GRID, TUNINGS, Observed
 from phframe.bench.meters.simulation import Simulation, measure_simulation
 from phframe.bench.meters.sweeps import Prediction, Score, compare, outcomes, planned_sweeps, score
 from phframe.registry import Kind, load
-from phframe.runtime.run import PLAN_OPTIONS
+from phframe.runtime.plan_backend import FITTED as FITTED_ENGINES
+from phframe.runtime.plan_backend import PYMUNK_FITTED, default_plan_backend
 from phframe.runtime.scenes import scene_names
 from tests.markdown import table
 
 SCENES = ("vieira/simple-10", "papallas/s07")
-FITTED = {**BEFORE, **PLAN_OPTIONS}
+FITTED = {**BEFORE, **PYMUNK_FITTED}
 
 
 def distance(values: Values, wanted: Values) -> Score:
@@ -123,8 +124,8 @@ def test_the_bare_loop_takes_the_same_steps_to_the_same_end() -> None:
 def test_first_sweeps_are_predicted_as_well_as_documented() -> None:
     pytest.importorskip("mujoco")
     names = [name for name in scene_names() if name.startswith(bench.PUBLISHED)]
-    sweeps = planned_sweeps(names, PLAN_OPTIONS, first=True)
-    found = score(compare(sweeps, outcomes(sweeps, "pymunk", PLAN_OPTIONS), outcomes(sweeps, "mujoco")))
+    sweeps = planned_sweeps(names, PYMUNK_FITTED, first=True)
+    found = score(compare(sweeps, outcomes(sweeps, "pymunk", PYMUNK_FITTED), outcomes(sweeps, "mujoco")))
     assert found.sweeps == 31
     assert found.median <= 0.005
     assert found.same_corridor >= 27
@@ -134,9 +135,10 @@ def test_first_sweeps_are_predicted_as_well_as_documented() -> None:
 def test_solve_plans_with_what_was_fitted_and_says_so() -> None:
     pytest.importorskip("mujoco")
     plain = phframe.solve(SCENES[0], backend="mujoco")
-    assert dict(plain.spec.options["plan_backend"]) == PLAN_OPTIONS
+    fitted = FITTED_ENGINES[default_plan_backend()]
+    assert dict(plain.spec.options["plan_backend"]) == fitted
     own = phframe.solve(SCENES[0], backend="mujoco", options={"plan_backend": {"arm_acceleration": 20.0}})
-    assert dict(own.spec.options["plan_backend"]) == {**PLAN_OPTIONS, "arm_acceleration": 20.0}
+    assert dict(own.spec.options["plan_backend"]) == {**fitted, "arm_acceleration": 20.0}
     assert "plan_backend" not in phframe.solve(SCENES[0]).spec.options
 
 
