@@ -28,6 +28,12 @@ def emit(text: str) -> None:
     _write(sys.stdout, printable(text))
 
 
+def deliver(text: str) -> None:
+    """The result, as a document for other programs: letter by letter what a file would hold, unless a terminal shows it."""
+    shown = sys.stdout is not None and sys.stdout.isatty()
+    _write(sys.stdout, printable(text) if shown else text)
+
+
 def show(what: RenderableType) -> None:
     """The result, as a table or another picture of it."""
     from phframe.cli.rich_console import PrintableConsole

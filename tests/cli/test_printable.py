@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.table import Table
 
-from phframe.cli.console import emit, note, show
+from phframe.cli.console import deliver, emit, note, show
 from phframe.cli.printable import LONGEST_MESSAGE, abridged, printable
 from phframe.cli.rich_console import PrintableConsole
 from tests.cli.conftest import Invoke
@@ -41,6 +42,17 @@ def test_what_would_move_the_terminal_is_escaped_everywhere(text: str, capsys: p
     for written in capsys.readouterr():
         assert written.replace("\n", "").isprintable()
         assert "\\" in written
+
+
+def test_a_document_is_what_a_file_holds_unless_a_terminal_shows_it(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = "a\rb\x1b[2J\u2028"
+    deliver(text)
+    assert capsys.readouterr().out == f"{text}\n"
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    deliver(text)
+    assert capsys.readouterr().out == "a\\rb\\x1b[2J\\u2028\n"
 
 
 def test_progress_shows_and_does_not_obey() -> None:
