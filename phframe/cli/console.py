@@ -1,4 +1,7 @@
-"""Where the commands write to: results to standard output, everything else to standard error."""
+"""Where the commands write to: results to standard output, everything else to standard error.
+
+Whatever is written is printable here, and messages are short here: nobody else has to see to it.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,8 @@ from contextlib import contextmanager, redirect_stdout, suppress
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, TextIO
 
+from phframe.cli.printable import abridged, printable
+
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
 
@@ -19,31 +24,38 @@ UNLIMITED = 10_000
 
 def note(text: str) -> None:
     """A line for people, beside the result."""
-    _write(sys.stderr, text)
+    _write(sys.stderr, printable(abridged(text)))
 
 
 def emit(text: str) -> None:
     """The result, as text."""
-    _write(_results(), text)
+    _write(_results(), printable(text))
+
+
+def deliver(text: str) -> None:
+    """The result, as a document for other programs: letter by letter what a file would hold, unless a terminal shows it."""
+    results = _results()
+    shown = results is not None and results.isatty()
+    _write(results, printable(text) if shown else text)
 
 
 def show(what: RenderableType) -> None:
     """The result, as a table or another picture of it."""
-    from rich.console import Console
+    from phframe.cli.rich_console import PrintableConsole
 
-    console = Console(highlight=False, file=_results())
+    console = PrintableConsole(highlight=False, file=_results())
     if not console.is_terminal:
         console.width = _columns()
     with console.capture() as capture:
         console.print(what)
-    emit("\n".join(line.rstrip() for line in capture.get().rstrip("\n").split("\n")))
+    _write(_results(), "\n".join(line.rstrip() for line in capture.get().rstrip("\n").split("\n")))
 
 
 def error_console() -> Console:
     """Standard error, for progress."""
-    from rich.console import Console
+    from phframe.cli.rich_console import PrintableConsole
 
-    return Console(stderr=True, highlight=False)
+    return PrintableConsole(stderr=True, highlight=False)
 
 
 def leave(stream: TextIO) -> None:
