@@ -51,6 +51,7 @@ def test_an_interruption_keeps_what_was_recorded_and_says_where(spawn: Spawn, by
     until(lambda: simulated() > 2, process)
     [child] = map(int, Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split())
     os.kill(child, signal.SIGSTOP)  # so that the count and the interruption are of one moment
+    until(lambda: status_of(child)["State"].strip().startswith("T"), process)
     process.send_signal(by)
     until(lambda: is_pending(by, child), process)
     before = simulated()
@@ -87,5 +88,10 @@ def simulated() -> int:
 
 def is_pending(number: signal.Signals, process: int) -> bool:
     """Whether a process has been sent a signal that it has not looked at yet."""
-    fields = dict(line.split(":", 1) for line in Path(f"/proc/{process}/status").read_text().splitlines())
-    return any(int(fields[name], 16) >> (number - 1) & 1 for name in ("ShdPnd", "SigPnd"))
+    return any(int(status_of(process)[name], 16) >> (number - 1) & 1 for name in ("ShdPnd", "SigPnd"))
+
+
+def status_of(process: int) -> dict[str, str]:
+    """What the system says of a process, by name."""
+    lines = Path(f"/proc/{process}/status").read_text().splitlines()
+    return {name: value for name, _, value in (line.partition(":") for line in lines)}
