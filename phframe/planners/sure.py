@@ -48,8 +48,9 @@ from phframe.pushing import (
     target_pushes,
 )
 
-NEXT_BEST, TILTED, CUT, OF_TARGET = 0.05, 0.02, 0.3, 3.0
-"""What a sweep that is not the best of its group, is tilted, is cut short or pushes the target adds to it (pushes)."""
+NEXT_BEST, TILTED, CUT, OF_TARGET, BY_WALL = 0.05, 0.02, 0.3, 3.0, 3.0
+"""What a sweep that is not the best of its group, is tilted, is cut short, pushes the target, or makes way for a drive that a
+wall blocks too adds to it (pushes)."""
 AMPLE = 0.01
 """A grasp that keeps this clearance is as good as one that keeps more (m)."""
 ALIKE = 0.002
@@ -149,7 +150,7 @@ class _LazySearch:
             self._add(0.0, _Candidate(ROOT, push=push))
         while plan is None and self._queue and self._room and not self._reach.never:
             estimate, _, candidate = heapq.heappop(self._queue)
-            if self._confirmed is not None and self._confirmed.refutes(candidate.node):
+            if self._is_refuted(candidate.node):
                 continue
             if candidate.push is None:
                 self._fit(candidate)
@@ -187,8 +188,9 @@ class _LazySearch:
             self._tree.close(node, why)
             return None
         for drive in found:
-            if drive.blocking and not drive.by_wall and not self._reach.refuses(drive):
-                self._add(depth + 1 + NEXT_BEST * drive.blocking, _Candidate(node, drive))
+            if drive.blocking and not self._reach.refuses(drive):
+                cost = NEXT_BEST * drive.blocking + BY_WALL * drive.by_wall
+                self._add(depth + 1 + cost, _Candidate(node, drive))
         if self._options.target_pushes:
             self._add(depth + 1 + (0.0 if all(drive.by_wall for drive in found) else OF_TARGET), _Candidate(node))
         return None
@@ -236,7 +238,12 @@ class _LazySearch:
 
     def _is_over(self, node: int) -> bool:
         """Whether nothing is to be tried from a node any more: it does not come true, or not quite as it is."""
-        return node in self._replaced or (self._confirmed is not None and self._confirmed.refutes(node))
+        return node in self._replaced or self._is_refuted(node)
+
+    def _is_refuted(self, node: int) -> bool:
+        """Whether what leads to a node does not come true where it is confirmed, or in too few samples of the world."""
+        not_true = self._confirmed is not None and self._confirmed.refutes(node)
+        return not_true or self._rehearsals.refutes(node)
 
     def _carried_out(self, node: int, end: int, drive: Drive, grasp: Grasp) -> Plan | None:
         """The plan that ends with a grasp from a node, if it comes true in the engine and by the arm that execute."""

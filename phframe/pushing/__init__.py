@@ -22,7 +22,7 @@ from phframe.pushing.push_problem import PushProblem
 from phframe.pushing.push_search import UNCHANGED, Proposal, PushSearch, by_direction, is_unchanged
 from phframe.pushing.pushing import Pushing
 from phframe.pushing.reach_of_target import ReachOfTarget
-from phframe.pushing.rehearsal import Rehearsals, rehearsed
+from phframe.pushing.rehearsal import Rehearsals, first_fault
 from phframe.pushing.retrieve import Retrieve, RetrieveOptions, is_cleared
 from phframe.pushing.straight_drive import StraightDrive, first_blocker, straight_drive
 from phframe.pushing.straight_push import StraightPusher, StraightPushOptions
@@ -80,13 +80,13 @@ __all__ = [
     "drives",
     "find_corridor",
     "first_blocker",
+    "first_fault",
     "grasp_action",
     "harm",
     "is_cleared",
     "is_unchanged",
     "persistent_radii",
     "push_action",
-    "rehearsed",
     "straight_drive",
     "target_pushes",
     "usable_radii",

@@ -26,6 +26,7 @@ class Rehearsals:
         self._number, self._certain, self._left = particles, certain, most
         self._particles: tuple[Particle, ...] | None = None  # not drawn yet
         self._best: tuple[int, Certainty] | None = None
+        self._unsure: set[int] = set()
 
     def rehearse(self, end: int, clearance: float | None) -> bool:
         """Rehearse the plan that ends at a node; whether the search can end, with the surest one so far.
@@ -37,22 +38,42 @@ class Rehearsals:
         if self._best is None:  # found already, should the budget end here
             self._task.offer(self._tree.plan(end, Status.RETRIEVED))
         actions = [node.action for node in self._tree.path(end) if node.action is not None]
-        certainty = rehearsed(self._search, actions, self._samples(), clearance)
+        faults = [first_fault(self._search, actions, particle) for particle in self._samples()]
+        certainty = Certainty(clearance, len(faults), faults.count(None))
         self._left -= 1
         if self._best is None or certainty.clean > self._best[1].clean:
             self._best = end, certainty
             self._task.offer(self._plan(*self._best))
         if not self._left or certainty.clean >= self._certain * certainty.samples:
             return True
-        self._tree.close(end, f"clean in {certainty.clean} of {certainty.samples} samples of the world")
+        self._close_unsure(end, faults)
         return False
+
+    def refutes(self, node: int) -> bool:
+        """Whether no plan through a node is sure: what leads to it comes off in too few samples."""
+        found: int | None = node if self._unsure else None
+        while found is not None:
+            if found in self._unsure:
+                return True
+            found = self._tree[found].parent
+        return False
+
+    def _close_unsure(self, end: int, faults: Sequence[int | None]) -> None:
+        """Close the first node on the way to the end of a plan that too few samples reach without a fault."""
+        for number, node in enumerate(self._tree.rows(end)):
+            reached = sum(fault is None or fault > number for fault in faults)
+            if reached < self._certain * len(faults):
+                self._unsure.add(node)
+                self._tree.close(node, f"comes off in {reached} of {len(faults)} samples of the world")
+                return
 
     def surest(self) -> Plan | None:
         """The surest plan; None: there is none."""
         if self._best is None:
             return None
         end, certainty = self._best
-        self._tree.reopen(end, self._tree[end].decision or Decision())
+        for row in {end, *self._unsure} & {*self._tree.rows(end)}:
+            self._tree.reopen(row, self._tree[row].decision or Decision())
         self._tree.close_others(end, "another path led to a clean grasp")
         return self._plan(end, certainty)
 
@@ -65,29 +86,21 @@ class Rehearsals:
         return replace(self._tree.plan(end, Status.RETRIEVED), certainty=certainty)
 
 
-def rehearsed(
-    search: PushSearch, actions: Sequence[Action], particles: Sequence[Particle], clearance: float | None = None
-) -> Certainty:
-    """Simulate a plan in every sample, open loop, and count those in which it retrieves the target cleanly.
+def first_fault(search: PushSearch, actions: Sequence[Action], particle: Particle) -> int | None:
+    """Which action of a plan, simulated open loop in a sample, does harm or does not take the target out; None: none.
 
     Args:
         search: For whose task it is.
         actions: The plan's.
-        particles: The samples.
-        clearance: That the arm keeps on its way in (m); None: not known.
+        particle: The sample.
     """
-    clean = sum(_comes_off(search, actions, particle) for particle in particles)
-    return Certainty(clearance, len(particles), clean)
-
-
-def _comes_off(search: PushSearch, actions: Sequence[Action], particle: Particle) -> bool:
     state = particle.start
-    for action in actions:
+    for number, action in enumerate(actions):
         made = particle.apply(state, action, None)
         if _fault(search, action, state, made):
-            return False
+            return number
         state = made.state
-    return True
+    return None
 
 
 def _fault(search: PushSearch, action: Action, before: State, made: Transition) -> str:

@@ -24,7 +24,7 @@ from phframe.core import (
 )
 from phframe.core.particle import Apply
 from phframe.planners.sure import Sure, SureOptions
-from phframe.pushing import Rehearsals, rehearsed
+from phframe.pushing import Rehearsals, first_fault
 from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.world import WorldSpec
 from tests.pushing.parts import scene_of
@@ -63,13 +63,12 @@ def planned(world: PlanningWorld, samples: Sequence[Particle], budget: Budget = 
     return Sure(SureOptions.parse(options, "sure")).plan(task)
 
 
-def test_the_samples_in_which_a_plan_comes_off_are_counted() -> None:
+def test_the_first_action_that_goes_wrong_in_a_sample_is_found() -> None:
     with bench(SCENE) as made, PlanningWorld(WorldSpec(SCENE)) as world:
         plan = Sure(SureOptions()).plan(task_in(world))
         assert [action.kind for action in plan.actions] == [ActionKind.PUSH, ActionKind.GRASP]
         worlds = particles(world.apply, topples(world.apply), world.apply, slips(world.apply))
-        assert rehearsed(made.search, plan.actions, worlds, 0.004) == Certainty(0.004, 4, 2)
-        assert rehearsed(made.search, plan.actions, []) == Certainty(None, 0, 0)
+        assert [first_fault(made.search, plan.actions, each) for each in worlds] == [None, 0, None, 1]
 
 
 def test_a_sample_in_which_things_stand_elsewhere_is_begun_from_there() -> None:
@@ -78,7 +77,7 @@ def test_a_sample_in_which_things_stand_elsewhere_is_begun_from_there() -> None:
         poses = SCENE.initial_state().poses.copy()
         poses[0, :2] = [0.45, 0.12]
         aside = Particle(replace(SCENE.initial_state(), poses=poses), world.apply)
-        assert rehearsed(made.search, plan.actions, [aside]).clean == 0
+        assert first_fault(made.search, plan.actions, aside) is not None
 
 
 def test_all_are_certain_where_there_are_no_samples() -> None:
@@ -109,7 +108,11 @@ def test_a_plan_that_is_not_sure_gives_way_to_one_that_is() -> None:
         assert plan.certainty is not None
         assert (plan.certainty.samples, plan.certainty.clean) == (4, 4)
         assert plan.tree is not None
-        assert "clean in 0 of 4 samples of the world" in {node.closed for node in plan.tree.nodes}
+        assert "comes off in 0 of 4 samples of the world" in {node.closed for node in plan.tree.nodes}
+        (unsure,) = (row for row, node in enumerate(plan.tree.nodes) if node.closed.startswith("comes off in 0"))
+        assert plan.tree.nodes[unsure].action == believed.actions[0]
+        after = {node.parent for node in plan.tree.nodes[unsure + 2 :]}
+        assert unsure not in after, "nothing else is built on a push that is not sure"
         assert [bool(node.closed) for node in plan.tree.path] == [False] * len(plan.actions)
 
 
@@ -122,12 +125,12 @@ def test_where_none_is_sure_the_surest_of_as_many_as_are_rehearsed_is_kept(most:
         assert plan.status is Status.RETRIEVED
         assert plan.tree is not None
         assert plan.certainty is not None
-        told = [node.closed for node in plan.tree.nodes if node.closed.startswith("clean in ")]
+        told = [node.closed for node in plan.tree.nodes if node.closed.startswith("comes off in ")]
         assert (plan.certainty.samples, plan.certainty.clean) == (4, clean)
-        assert "clean in 1 of 4 samples of the world" in told or most == 1
-        assert all(int(each.split()[2]) <= clean for each in told)
+        assert "comes off in 1 of 4 samples of the world" in told or most == 1
+        assert all(int(each.split()[3]) <= clean for each in told)
         assert len(told) <= most - 1
-        assert not plan.tree.path[-1].closed
+        assert not any(node.closed for node in plan.tree.path)
 
 
 def test_a_plan_that_was_found_is_not_lost_when_the_budget_ends_its_rehearsal() -> None:
