@@ -213,17 +213,22 @@ def _exit(code: int) -> str:
 
 @contextmanager
 def _signals() -> Iterator[int]:
-    """The end of a pipe that gives the number of every signal that comes, but for those that are to be ignored."""
+    """The end of a pipe that gives the number of every signal that comes, but for those that are to be ignored.
+
+    Afterwards all are: nothing is left to be ended but this process, which does.
+    """
     reader, writer = os.pipe()
     os.set_blocking(writer, False)
-    numbers = [number for name in ENDING if signal.getsignal(number := getattr(signal, name)) is not signal.SIG_IGN]
-    before = {number: signal.signal(number, lambda number, frame: None) for number in (*numbers, signal.SIGCHLD)}
+    for name in (*ENDING, "SIGCHLD"):
+        if signal.getsignal(number := getattr(signal, name)) is not signal.SIG_IGN:
+            signal.signal(number, lambda number, frame: None)
     signal.set_wakeup_fd(writer)
     try:
         yield reader
     finally:
+        for name in ENDING:
+            signal.signal(getattr(signal, name), signal.SIG_IGN)
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         signal.set_wakeup_fd(-1)
-        for number, handler in before.items():
-            signal.signal(number, handler)
         os.close(reader)
         os.close(writer)

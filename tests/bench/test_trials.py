@@ -25,7 +25,7 @@ ENDS: Mapping[str, tuple[TrialEnd, str]] = {
     "Aborts": (CRASHED, "was ended by signal 6 (Aborted) in File "),
     "Exits": (CRASHED, "ended with exit code 3 before there was a result; the last it said: I have had enough"),
     "ExitsAsIfAllWereWell": (CRASHED, "ended with exit code 0 before there was a result"),
-    "AsksToExit": (CRASHED, "the code in it asked to exit, with 4"),
+    "AsksToExit": (ERROR, "asked to exit, with 4"),
     "Hangs": (TrialEnd.KILLED, "it ran longer than 20 s and was killed"),
     "EatsMemory": (TrialEnd.MEMORY, "it asked for more memory than it may have"),
     "ReturnsThree": (ERROR, "planner ReturnsThree returned 3 instead of a Plan"),

@@ -7,7 +7,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -25,9 +25,14 @@ Child = Callable[[Callable[..., object]], None]
 
 
 @pytest.fixture(autouse=True)
-def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+def _impatient(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    ours = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGCHLD)
+    before = {number: signal.getsignal(number) for number in ours}
     for name in ("GRACE", "LAST_GRACE", "TO_SAVE_AT_ONCE", "TO_EXIT"):
         monkeypatch.setattr(watchdog, name, 0.05)
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
 
 
 def watched(child: Child, memory: int | None = None) -> int:
