@@ -2,9 +2,13 @@
 
 import os
 import signal
+import tempfile
 import threading
 
 from hypothesis import settings
+
+CACHE = tempfile.TemporaryDirectory(prefix="phframe-tests-")  # what plugins answer here is nobody else's
+os.environ["PHFRAME_CACHE"] = CACHE.name
 
 settings.register_profile("phframe", deadline=None, print_blob=True)  # a busy machine is no failure
 settings.register_profile("same-every-time", settings.get_profile("phframe"), derandomize=True)

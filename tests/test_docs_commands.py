@@ -19,6 +19,7 @@ LEFT_OUT = (
     "python -m pip ",  # changes the environment
     "python -m phframe.bench.meters calibrate",  # three minutes
     "python -m phframe.bench.meters ensemble",  # the same
+    "python -m phframe.bench.meters certainty",  # the same
     "phframe report runs/paper",  # of a bench that is only listed here
 )
 """Beginnings of the commands that are not run, and why."""

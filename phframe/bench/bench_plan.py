@@ -11,9 +11,11 @@ from phframe.bench.trial import Trial
 from phframe.core import OptionError, RunSpec
 from phframe.core.run_spec import PARTS
 from phframe.core.variant import split_variant
-from phframe.registry import Kind, catalogue
-from phframe.registry.catalogue import HOME
+from phframe.registry import Kind, builtins
 from phframe.runtime.run import prepare
+
+PLUGINS = "phframe.bench.preload_plugins"
+"""The module to preload where trials use what plugins offer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,12 +71,14 @@ class BenchPlan:
     def modules(self) -> tuple[str, ...]:
         """The modules of phframe's own that its trials use, for their processes to be forked from one that has them."""
         parts = [
-            (Kind(part.removeprefix("plan_")), getattr(spec, part)) for spec in self.specs.values() for part in PARTS
+            (Kind(part.removeprefix("plan_")), split_variant(name)[0])
+            for spec in self.specs.values()
+            for part in PARTS
+            if isinstance(name := getattr(spec, part), str)
         ]
-        entries = [entry for kind, name in parts for entry in catalogue().extensions(kind) if entry.name == name]
-        return tuple(
-            dict.fromkeys(each.extension.target.partition(":")[0] for each in entries if each.distribution == HOME)
-        )
+        entries = [builtins().entry(*part) for part in parts]
+        own = dict.fromkeys(each.extension.target.partition(":")[0] for each in entries if each)
+        return (*own, *(() if all(entries) else (PLUGINS,)))
 
     @property
     def digests(self) -> dict[str, str]:

@@ -12,7 +12,7 @@ import os
 from pathlib import Path
 
 import phframe.bench.child  # noqa: F401 - all that a trial needs whatever it runs
-from phframe.registry import catalogue, versions
+from phframe.registry import builtins, versions
 from phframe.runtime.scenes import find_scene
 
 _SERVER = os.getpid()
@@ -37,9 +37,8 @@ def end_children() -> None:
 
 def warm_up() -> None:
     """Find out what every trial would find out anew, and have the garbage collector leave all of it alone."""
-    catalogue()
     find_scene("vieira/basic")  # imports what reads scenes
-    versions((entry.extension.kind, entry.name) for entry in catalogue().entries)
+    versions((entry.extension.kind, entry.name) for entry in builtins().entries)
     gc.collect()
     gc.freeze()
 

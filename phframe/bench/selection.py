@@ -9,7 +9,7 @@ from fnmatch import fnmatchcase
 from typing import Any
 
 from phframe.core import InputError, Scene, SceneSuite, UnknownNameError
-from phframe.registry import Kind, catalogue, create
+from phframe.registry import Kind, catalogue, create, look_up
 from phframe.runtime.scenes import find_scene
 from phframe.scenes.spec import is_file_spec
 
@@ -60,8 +60,8 @@ def _names(text: str, options: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def _suite(name: str, options: Mapping[str, Any]) -> SceneSuite[Any]:
-    known = [entry.name for entry in catalogue().extensions(Kind.SCENES)]
-    if name not in known and ":" not in name:
+    if ":" not in name and look_up(Kind.SCENES, name) is None:
+        known = [entry.name for entry in catalogue().extensions(Kind.SCENES)]
         raise UnknownNameError("suite of scenes", name, known, "A scene file ends in .yaml.")
     suite: SceneSuite[Any] = create(Kind.SCENES, name, options)
     return suite

@@ -13,10 +13,10 @@ from pathlib import Path
 import phframe
 from phframe.bench.environment import Environment
 from phframe.core import RunSpec
+from phframe.core.distributions import HOME
 from phframe.core.run_spec import PARTS
 from phframe.core.variant import split_variant
-from phframe.registry import Kind, catalogue
-from phframe.registry.catalogue import HOME
+from phframe.registry import Kind, look_up
 from phframe.registry.from_file import is_file
 from phframe.runtime.versions import versions_of
 
@@ -60,14 +60,14 @@ def code_files(package: Path) -> list[Path]:
 
 def _foreign_code(specs: Iterable[RunSpec]) -> Iterator[tuple[str, str]]:
     """Digests of the files that parts come from, and of the packages of plugins, by what they are called."""
-    parts = {(Kind(part.removeprefix("plan_")), str(getattr(spec, part))) for spec in specs for part in PARTS}
-    for kind, name in parts:
+    parts = {(Kind(part.removeprefix("plan_")), getattr(spec, part)) for spec in specs for part in PARTS}
+    for kind, text in parts:
+        name = split_variant(text)[0] if isinstance(text, str) else ""
         if is_file(name):
-            file = split_variant(name)[0].rpartition(":")[0]
+            file = name.rpartition(":")[0]
             yield file, _digest([Path(file).expanduser()])
-        for entry in catalogue().extensions(kind):
-            if entry.name == name and entry.distribution != HOME:
-                yield entry.distribution, _digest(_package(entry.extension.target))
+        elif name and (entry := look_up(kind, name)) and entry.distribution != HOME:
+            yield entry.distribution, _digest(_package(entry.extension.target))
 
 
 def _package(target: str) -> list[Path]:

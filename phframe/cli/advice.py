@@ -24,7 +24,8 @@ def terminal_advisor(aside: Callable[[], AbstractContextManager[None]]) -> Advis
     Args:
         aside: Makes room on the screen for as long as it is entered.
     """
-    return TerminalAdvisor(aside) if sys.stdin.isatty() and sys.stderr.isatty() else NOBODY
+    there = all(stream is not None and stream.isatty() for stream in (sys.stdin, sys.stderr))  # None: closed
+    return TerminalAdvisor(aside) if there else NOBODY
 
 
 class TerminalAdvisor:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import typer
 
+from phframe.cli.console import results_only
 from phframe.cli.export_formats import FORMATS
 from phframe.cli.options import PARTS
 
@@ -72,7 +73,8 @@ def options(context: typer.Context, incomplete: str) -> Offer:
 
 def _quietly(offer: Callable[[], Iterable[tuple[str, str]]], incomplete: str) -> Offer:
     try:
-        return [(name, summary) for name, summary in offer() if name.startswith(incomplete)]
+        with results_only():
+            return [(name, summary) for name, summary in offer() if name.startswith(incomplete)]
     except Exception:  # noqa: BLE001 - a message would end up in the middle of what is being typed
         return []
 
@@ -97,11 +99,12 @@ def _registered(kind: str) -> Offer:
 
 
 def _scene_names() -> Offer:
-    from phframe.cli.listing_data import scene_names
+    from phframe.cli.listing_data import scenes_of
     from phframe.registry import Kind, catalogue
 
     entries = catalogue().extensions(Kind.SCENES)
-    return [(f"{entry.name}/{name}", entry.extension.summary) for entry in entries for name in scene_names(entry)]
+    found = zip(entries, scenes_of(entries), strict=True)
+    return [(f"{entry.name}/{name}", entry.extension.summary) for entry, answer in found for name in answer.names]
 
 
 def _runs() -> Offer:
@@ -118,14 +121,17 @@ def _scene_files(incomplete: str) -> Offer:
 
 def _option_keys(context: typer.Context) -> Offer:
     from phframe.cli.option_list import describe
-    from phframe.registry import Kind
-    from phframe.registry.from_file import is_file
+    from phframe.core.variant import split_variant
+    from phframe.registry import Kind, builtins
 
     asked = [(part, context.params.get(part)) for part in PARTS if part != "scenes"]
-    asked += [("scenes", suite) for suite, _ in _registered("scenes")]  # which one is not known before Enter
+    asked += [
+        ("scenes", entry.name) for entry in builtins().extensions(Kind.SCENES)
+    ]  # which one is not known before Enter
     return [
         (f"{'' if part == 'planner' else f'{part}.'}{each.key}=", each.description)
         for part, spec in asked
-        if spec and not is_file(spec)  # nothing in it is run before Enter
+        if spec
+        and builtins().entry(Kind(part.removeprefix("plan_")), split_variant(spec)[0])  # no plugin's code before Enter
         for each in describe(Kind(part.removeprefix("plan_")), spec).options
     ]

@@ -17,7 +17,7 @@ DEBUG = "PHFRAME_DEBUG"
 """Environment variable: 1 shows the traceback of every error."""
 
 
-def report(error: Exception) -> int:
+def report(error: BaseException) -> int:
     """Say in one line on standard error what went wrong.
 
     Returns:
@@ -33,7 +33,7 @@ def report(error: Exception) -> int:
     return code
 
 
-def _described(error: Exception) -> tuple[str, int]:
+def _described(error: BaseException) -> tuple[str, int]:
     if hasattr(error, "format_message"):  # of the option parser
         return _usage(error), ExitCode.BAD_INPUT
     if isinstance(error, MemoryError):
@@ -44,6 +44,7 @@ def _described(error: Exception) -> tuple[str, int]:
         PartFailedError,
         PhframeError,
         SimulationDivergedError,
+        error_text,
     )
 
     if isinstance(error, NotInstalledError):
@@ -54,7 +55,7 @@ def _described(error: Exception) -> tuple[str, int]:
         return f"{error} ({_place_of_traceback(error)})", ExitCode.BAD_INPUT
     if isinstance(error, PhframeError):
         return str(error), ExitCode.BAD_INPUT
-    return f"internal: {type(error).__name__}: {error} ({_place_of_traceback(error)})", ExitCode.INTERNAL_ERROR
+    return f"internal: {error_text(error)} ({_place_of_traceback(error)})", ExitCode.INTERNAL_ERROR
 
 
 def _usage(error: Any) -> str:
@@ -77,7 +78,7 @@ def _in_a_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def _place_of_traceback(error: Exception) -> str:
+def _place_of_traceback(error: BaseException) -> str:
     if os.environ.get(DEBUG) == "1":
         return "the traceback is above"
     try:

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
 from phframe.cli import plugin_commands
-from phframe.cli.console import note
+from phframe.cli.console import note, results_only
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.failures import report
 
@@ -30,17 +30,25 @@ class CommandGroup(TyperGroup):
             result = super().main(args, *rest, **extra)
         except (KeyboardInterrupt, typer.Abort):
             result = ExitCode.INTERRUPTED
-        except Exception as error:  # noqa: BLE001 - nobody is to see a traceback
+        except SystemExit:
+            raise
+        except BaseException as error:  # noqa: BLE001 - nobody is to see a traceback
             result = report(error)
         sys.exit(result if isinstance(result, int) else ExitCode.SUCCESS)
 
     def invoke(self, ctx: Any) -> Any:
-        """Run a command; say so if it was interrupted."""
+        """Run a command; say so if it was interrupted, or if it is a plugin's and went wrong."""
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt:
             note("interrupted")
             raise
+        except Exception as error:
+            if ctx.invoked_subcommand in self.commands:
+                raise
+            if (told := plugin_commands.failure(ctx.invoked_subcommand or "", error)) is None:
+                raise
+            raise told from error
 
     def list_commands(self, ctx: Any) -> list[str]:
         """The names of all commands: phframe's own, then those of plugins."""
@@ -60,9 +68,28 @@ class CommandGroup(TyperGroup):
         name = args[0]
         if name in self.commands or name.startswith("-"):
             return super().resolve_command(ctx, args)
-        if ctx.resilient_parsing and name not in self.list_commands(ctx):
-            return None, None, args[1:]
+        if ctx.resilient_parsing:  # after Tab: no plugin's code is run
+            command = plugin_commands.summary(name)
+            return name if command else None, command, args[1:]
         return name, plugin_commands.load_command(name, self.commands), args[1:]
+
+
+class Command(TyperCommand):
+    """A command of phframe: while it runs, what a plugin or a library prints is no part of its result."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run it."""
+        with results_only():
+            return super().invoke(ctx)
+
+
+def keep_output(app: typer.Typer) -> None:
+    """Have all commands of an application, and of its groups, be of the class ``Command``."""
+    for command in app.registered_commands:
+        command.cls = Command
+    for group in app.registered_groups:
+        if group.typer_instance is not None:
+            keep_output(group.typer_instance)
 
 
 def show_help(context: typer.Context) -> None:

@@ -6,6 +6,7 @@ from phframe.cli.console import note
 from phframe.cli.needs import require
 from phframe.cli.output import Output
 from phframe.core.paths import path_shown
+from phframe.scenes.foreign_file import read_foreign
 from phframe.scenes.importer import to_scene
 from phframe.scenes.writer import scene_to_yaml
 
@@ -17,10 +18,8 @@ def run(file: str, out: str, target: str | None, name: str | None, *, force: boo
         PhframeError: If the file cannot be read or holds no shelf; nothing was written then.
     """
     require("mujoco", "reading MuJoCo XML", "mujoco")
-    from phframe.scenes.mujoco_ import read_mjcf
-
     output = Output(out, force=force)
-    imported = to_scene(read_mjcf(file), path_shown(file), target, name)
+    imported = to_scene(read_foreign(file), path_shown(file), target, name)
     text = scene_to_yaml(imported.scene)
     for line in imported.notes:
         note(line)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
+from functools import cache
 from typing import Any
 
-from phframe.core.errors import PhframeError
+from phframe.core.distributions import HOME
 from phframe.registry import Entry, Kind, catalogue, create
-from phframe.registry.requirements import missing
+from phframe.registry.answer import Answer
+from phframe.registry.requirements import Missing, missing
 
 FORMAT = 1
 """Of the JSON listings."""
@@ -70,42 +72,44 @@ def listing(kind: Kind, title: str) -> Listing:
     """All that is registered of one kind."""
     entries = catalogue().extensions(kind)
     broken = [BrokenItem(each.distribution, each.version, each.error) for each in catalogue().broken]
-    items = []
-    for entry in entries:
-        try:
-            items += [_item(entry), *_variants(entry)]
-        except PhframeError as error:
-            broken.append(BrokenItem(entry.distribution, entry.version, str(error)))
+    lacking = cache(missing)  # many entries need the same
+    gaps = [lacking(entry.distribution, entry.extension.extra) for entry in entries]
+    suites = [entry for entry, gap in zip(entries, gaps, strict=True) if kind is Kind.SCENES and gap is None]
+    scenes = dict(zip(suites, scenes_of(suites), strict=True))
+    items: list[Item] = []
+    for entry, gap in zip(entries, gaps, strict=True):
+        found = scenes.get(entry, Answer())
+        if found.error:
+            error = f"{entry.extension.kind} {entry.name!r}: {found.error}"
+            broken.append(BrokenItem(entry.distribution, entry.version, error))
+        else:
+            items += _items(entry, gap, tuple(f"{entry.name}/{name}" for name in found.names))
     return Listing(title, tuple(items), tuple(broken))
 
 
-def scene_names(entry: Entry) -> Sequence[str]:
-    """The names of a suite's scenes, without the suite's.
+def scenes_of(suites: Sequence[Entry]) -> list[Answer]:
+    """The names of the scenes of each suite, without the suite's. No code of plugins runs in this process."""
+    foreign = [suite for suite in suites if suite.distribution != HOME]
+    answers = {}
+    if foreign:
+        from phframe.registry.asking import ask_scene_names  # seldom needed
 
-    Raises:
-        PhframeError: If the suite does not load.
-    """
-    return tuple(create(Kind.SCENES, entry.name).names())
-
-
-def _item(entry: Entry) -> Item:
-    gap = missing(entry.distribution, entry.extension.extra)
-    listed = entry.extension.kind is Kind.SCENES and gap is None
-    return Item(
-        entry.name,
-        entry.extension.summary,
-        entry.distribution,
-        entry.version,
-        gap.library if gap else "",
-        gap.remedy if gap else "",
-        tuple(f"{entry.name}/{name}" for name in scene_names(entry)) if listed else (),
-    )
+        answers = dict(zip(foreign, ask_scene_names([suite.extension.target for suite in foreign]), strict=True))
+    return [answers[suite] if suite in answers else _own_scenes(suite) for suite in suites]
 
 
-def _variants(entry: Entry) -> list[Item]:
-    """What is listed as a thing of its own although it is another with options."""
-    whole = _item(entry)
-    return [replace(whole, name=f"{entry.name}[{options}]", summary=text) for options, text in entry.extension.variants]
+def _own_scenes(suite: Entry) -> Answer:
+    return Answer(names=tuple(create(Kind.SCENES, suite.name).names()))
+
+
+def _items(entry: Entry, gap: Missing | None, scenes: tuple[str, ...]) -> Iterator[Item]:
+    """An entry, and what is listed as a thing of its own although it is that with options."""
+    needs, remedy = (gap.library, gap.remedy) if gap else ("", "")
+    extension = entry.extension
+    whole = Item(entry.name, extension.summary, entry.distribution, entry.version, needs, remedy, scenes)
+    yield whole
+    for options, text in extension.variants:
+        yield replace(whole, name=f"{entry.name}[{options}]", summary=text)
 
 
 def _item_as_json(item: Item, *, with_scenes: bool) -> dict[str, Any]:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from phframe.cli.listing_data import BrokenItem, Item, Listing
-from phframe.cli.option_list import Description
+
+if TYPE_CHECKING:
+    from phframe.cli.option_list import Description
 
 HOME = "phframe"
 _MOST_SCENES, _FEW_SCENES = 12, 4

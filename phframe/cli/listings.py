@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from phframe.cli import completion
+
+if TYPE_CHECKING:
+    from phframe.cli.listing_data import Listing
+    from phframe.cli.option_list import Description
 
 _LISTINGS = {
     "planners": ("planner", "planners", "planners phia"),
@@ -50,6 +54,20 @@ def _command(title: str, kind: str) -> Callable[..., None]:
     return command
 
 
+def _listing(title: str, kind: str) -> Listing:
+    from phframe.cli.listing_data import listing
+    from phframe.registry import Kind
+
+    return listing(Kind(kind), title)
+
+
+def _description(kind: str, name: str) -> Description:
+    from phframe.cli.option_list import describe  # heavy
+    from phframe.registry import Kind
+
+    return describe(Kind(kind), name)
+
+
 def print_listing(title: str, kind: str, name: str | None, *, as_json: bool) -> None:
     """Print all that is registered of one kind, or describe one.
 
@@ -62,11 +80,7 @@ def print_listing(title: str, kind: str, name: str | None, *, as_json: bool) -> 
     Raises:
         PhframeError: If there is no such thing, or it does not load.
     """
-    from phframe.cli.listing_data import listing
-    from phframe.cli.option_list import describe
-    from phframe.registry import Kind
-
-    what = listing(Kind(kind), title) if name is None else describe(Kind(kind), name)
+    what = _listing(title, kind) if name is None else _description(kind, name)
     if as_json:
         import json
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from typing import Annotated
 
 import typer
 
 from phframe.cli import arm, bench, listings, scene
-from phframe.cli.console import emit
+from phframe.cli.console import emit, reserve_output
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.export import export
-from phframe.cli.group import CommandGroup, show_help
+from phframe.cli.group import CommandGroup, keep_output, show_help
 from phframe.cli.interrupt import ENDING
 from phframe.cli.replay import replay
 from phframe.cli.report import report
@@ -38,6 +39,7 @@ app.add_typer(bench.app, name="bench")
 listings.add_to(app)
 app.add_typer(arm.app, name="arm")
 app.add_typer(scene.app, name="scene")
+keep_output(app)
 
 
 @app.callback()
@@ -59,6 +61,9 @@ def _version() -> str:
 
 def main() -> None:
     """Entry point of the command; ends the process. Being told to terminate is like Ctrl-C: what was recorded is kept."""
+    reserve_output()
+    os.environ.setdefault("PYTHONSAFEPATH", "1")  # processes that are started import nothing from the working directory
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it would ask every distribution for them
     for name in ENDING:
         number = getattr(signal, name, None)
         if number is not None and signal.getsignal(number) is not signal.SIG_IGN:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from itertools import islice
 from pathlib import Path
 
-from phframe.cli.console import emit, note
+from phframe.cli.console import deliver, note
 from phframe.core.errors import InputError
 from phframe.core.files import (
     ThereAlreadyError,
@@ -49,7 +49,7 @@ class Output:
         """Write the whole file, or nothing; to standard output, text."""
         if self._path is None:
             assert isinstance(content, str), "bytes are for files"
-            emit(content.rstrip("\n"))
+            deliver(content.rstrip("\n"))
             return
         write_file(self._path, content, overwrite=self._force)
         note(f"wrote {path_shown(self._path)}")
@@ -60,7 +60,7 @@ class Output:
         blocks = iter(lambda: "\n".join(islice(rest, BLOCK)), "")
         if self._path is None:
             for block in blocks:
-                emit(block)
+                deliver(block)
         else:
             self.write_by(lambda part: _fill(part, blocks))
 

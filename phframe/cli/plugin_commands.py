@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from phframe.cli.console import release_output, results_only
+
 if TYPE_CHECKING:
     from phframe.registry import Entry
-
-_GROUP = "phframe"
 
 
 def names(own: Collection[str]) -> list[str]:
@@ -22,10 +22,8 @@ def names(own: Collection[str]) -> list[str]:
 
 def summary(name: str) -> Any:
     """A stand-in for a plugin's command that says what it does; None if there is no such command."""
-    for entry in _entries():
-        if name in (entry.name, entry.qualified_name):
-            return _as_command(lambda: None, name, entry.extension.summary)
-    return None
+    entry = _entry(name)
+    return _as_command(lambda: None, name, entry.extension.summary) if entry else None
 
 
 def load_command(name: str, own: Collection[str]) -> Any:
@@ -42,17 +40,40 @@ def load_command(name: str, own: Collection[str]) -> Any:
     from phframe.core.errors import PluginError, UnknownNameError
     from phframe.registry import Kind, load
 
-    if not any(name in (entry.name, entry.qualified_name) for entry in _entries()):
+    if _entry(name) is None:
         raise UnknownNameError("command", name, [*own, *names(own)], "See 'phframe --help'.")
-    loaded = load(Kind.COMMAND, name)
+    with results_only():
+        loaded = load(Kind.COMMAND, name)
     if not callable(loaded):
         raise PluginError(f"command {name!r} is neither a function nor a typer.Typer")
+    release_output()
     return _as_command(loaded, name)
 
 
+def failure(name: str, error: Exception) -> Exception | None:
+    """Who raised what, if a plugin's command raised an exception that is not meant to be told as it is; else None."""
+    from phframe.core.errors import PhframeError, PluginError, error_text
+
+    entry = _entry(name)
+    meant = isinstance(error, PhframeError | BrokenPipeError | typer.Exit | typer.Abort) or hasattr(
+        error, "format_message"
+    )
+    if entry is None or meant:
+        return None
+    return PluginError(f"command {name!r} of {entry.distribution} {entry.version} failed: {error_text(error)}")
+
+
+def _entry(name: str) -> Entry | None:
+    return next((each for each in _entries() if name in (each.name, each.qualified_name)), None)
+
+
 def _entries() -> tuple[Entry, ...]:
-    """The registered commands. The registry is imported only if any plugin is to be loaded."""
-    if os.environ.get("PHFRAME_PLUGINS", "all").strip() == "" or not metadata.entry_points(group=_GROUP):
+    """The registered commands. The registry is imported only if there are plugins."""
+    if os.environ.get("PHFRAME_PLUGINS", "all").strip() == "":
+        return ()
+    from phframe.core.distributions import with_plugins
+
+    if not with_plugins(metadata.distributions()):
         return ()
     from phframe.core.errors import PhframeError
     from phframe.registry import Kind, catalogue

@@ -13,6 +13,7 @@ from phframe.cli.needs import require
 from phframe.cli.output import Output
 from phframe.core import BasePose, InputError, Scene, Unreachable
 from phframe.core.paths import path_shown
+from phframe.core.scene_check import base_pose_faults
 from phframe.core.variant import variant_name
 from phframe.motion.reachability import Reachability, reachability
 from phframe.runtime.mounting import arm_in
@@ -48,6 +49,7 @@ def run(
     Raises:
         PhframeError: If something asked for cannot be used; nothing was written then.
     """
+    given = None if mount is None else _base_pose(*mount)
     output = _output(out, force=force)
     scene = find_scene(scene_name, options["scenes"])
     with error_console().status("Loading the libraries") as status:
@@ -57,7 +59,7 @@ def run(
             options["arm"],
             lambda done, of: status.update(f"Looking where the base has to stand: {done} of {of}"),
         )
-        base_pose = own if mount is None else BasePose(*mount)
+        base_pose = given or own
         status.update("Looking over how much of the shelf it reaches")
         reach = reachability(scene.shelf, arm, base_pose)
         beyond = arm.out_of_reach(scene, scene.initial_state(), base_pose, scene.target)
@@ -68,6 +70,13 @@ def run(
     name = variant_name(arm_name, arm.options.model_dump(mode="json", exclude_defaults=True, exclude={"mount"}))
     fractions = _fractions(name, scene, base_pose, reach, beyond)
     emit(json.dumps(fractions, allow_nan=False) if as_json else _sentence(fractions))
+
+
+def _base_pose(x: float, y: float, z: float, yaw: float) -> BasePose:
+    base_pose = BasePose(x, y, z, yaw)
+    for fault in base_pose_faults("--mount", base_pose):
+        raise InputError(fault)
+    return base_pose
 
 
 def _output(out: str | None, *, force: bool) -> Output | None:

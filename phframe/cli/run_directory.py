@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Collection
+import sys
+from collections.abc import Callable, Collection
 from datetime import datetime
+from functools import partial
 from itertools import count
 from pathlib import Path
+from weakref import finalize
 
 from phframe.core.errors import InputError
 
@@ -29,6 +33,7 @@ class RunDirectory:
     def __init__(self, asked: Path | None, *, keep: bool = True, own: Collection[str] = ()) -> None:
         self._asked, self.keep, self._own = asked, keep, own
         self.path: Path | None = None
+        self._release: Callable[[], object] = lambda: None
         if asked is not None:
             _check_free(asked, own)
 
@@ -39,17 +44,23 @@ class RunDirectory:
             names: What a new one is called after its time.
 
         Raises:
-            InputError: If that is not possible.
+            InputError: If that is not possible, or another run has it.
         """
         wanted = self._asked or RUNS
         try:
-            self.path = _make_new(RUNS, names) if self._asked is None else _make(self._asked, self._own)
+            if self._asked is None:
+                self.path = _make_new(RUNS, names)
+            else:
+                self._release = finalize(self, _claimed(self._asked))
+                _check_free(self._asked, self._own)  # somebody may have been here since it was checked first
+                self.path = self._asked
         except OSError as error:
             raise cannot_write(wanted, error) from None
         return self.path
 
     def discard_if_empty(self) -> None:
-        """Leave nothing behind where nothing was written."""
+        """Leave nothing behind where nothing was written. The run is over: the directory may be had by others."""
+        self._release()
         if self.path is not None and self.path.is_dir() and not any(self.path.iterdir()):
             self.path.rmdir()
             self.path = None
@@ -75,10 +86,29 @@ def _check_free(path: Path, own: Collection[str]) -> None:
         raise cannot_write(path, error if isinstance(error, OSError) else OSError(str(error))) from None
 
 
-def _make(path: Path, own: Collection[str]) -> Path:
+def _claimed(path: Path) -> Callable[[], object]:
+    """Make a directory and have it alone, until what this returns is called: of two runs that start at once, one goes on.
+
+    The lock is the system's, so nothing is left of a process that is killed. Windows has none.
+
+    Raises:
+        InputError: If another run has it.
+    """
     path.mkdir(parents=True, exist_ok=True)
-    _check_free(path, own)
-    return path
+    if sys.platform == "win32":
+        return lambda: None
+    import fcntl
+
+    claim = os.open(path, os.O_RDONLY)
+    try:
+        fcntl.flock(claim, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(claim)
+        raise InputError(f"--out {path} is in use by another run. Name another directory.") from None
+    except OSError:  # a file system without locks
+        os.close(claim)
+        return lambda: None
+    return partial(os.close, claim)
 
 
 def _make_new(parent: Path, names: tuple[str, ...]) -> Path:

@@ -11,7 +11,7 @@ from phframe.cli.needs import require
 from phframe.cli.output import STANDARD_OUTPUT, Output
 from phframe.core import InputError, Scene
 from phframe.core.paths import path_shown
-from phframe.registry import Kind, catalogue
+from phframe.registry import Kind, look_up
 from phframe.registry.from_file import is_file
 from phframe.runtime.scenes import find_scene
 from phframe.scenes.spec import is_file_spec
@@ -46,10 +46,9 @@ def run(name: str | None, out: str | None, options: Mapping[str, str], *, as_jso
 
 def _is_scene(name: str) -> bool:
     """Whether a scene is meant, and not a suite: by name, as ``distribution:name``, or as a class in a file."""
-    suites = [entry.name for entry in catalogue().extensions(Kind.SCENES)]
-    if is_file(name) or name in suites:
+    if is_file(name):
         return False
-    return "/" in name or is_file_spec(name) or ":" not in name
+    return "/" in name or (look_up(Kind.SCENES, name) is None and (is_file_spec(name) or ":" not in name))
 
 
 def _show(name: str, out: str | None, options: Mapping[str, str], *, as_json: bool, force: bool) -> None:

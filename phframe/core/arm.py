@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from phframe.core.scene import Scene
     from phframe.core.state import State
 
+FINGER_ROOM = 0.003
+"""Least room between an object and each of the open fingers that go around it (m)."""
 GRAZING = 1e-6
 """Heights that differ by less (m) only touch: what passes over something passes over what is no more than this higher."""
 LEAST_SERVED = 0.7

@@ -9,6 +9,29 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
+_LONGEST_TEXT = 600
+"""Characters of what an exception says that are shown."""
+
+
+def error_text(error: BaseException) -> str:
+    """What an exception of foreign code says, in one line of bounded length, whatever its class does when it is asked.
+
+    Returns:
+        The type and the text; of an error that phframe raises on purpose, the text.
+    """
+    try:
+        kind, text = type(error).__name__, " ".join(str(error)[: 4 * _LONGEST_TEXT].split())
+    except KeyboardInterrupt:
+        raise
+    except BaseException:  # noqa: BLE001 - its class is foreign code too
+        kind, text = _kind_of(error), "it cannot say what is wrong"
+    text = text if issubclass(type(error), PhframeError) else f"{kind}: {text}".removesuffix(": ")
+    return text if len(text) <= _LONGEST_TEXT else f"{text[:_LONGEST_TEXT]}..."
+
+
+def _kind_of(error: BaseException) -> str:
+    return str(type.__dict__["__name__"].__get__(type(error)))  # a metaclass cannot change that
+
 
 class PhframeError(Exception):
     """Root of all exceptions raised by phframe."""

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import replace
 from typing import ClassVar, Generic, TypeVar, final
 
-from phframe.core.arm import GRAZING
+from phframe.core.arm import FINGER_ROOM, GRAZING, ArmShape
 from phframe.core.errors import BudgetExceededError, PluginError, SimulationDivergedError
 from phframe.core.options import Options
 from phframe.core.plan import Plan
@@ -39,8 +39,8 @@ class Planner(ABC, Generic[OptionsT]):
     def plan(self, task: Task) -> Plan:
         """Search, and always return a plan: a spent budget or a diverged simulation is a result with a reason.
 
-        Where the object that has to be grasped is too low for the fingers, or out of the arm's reach and not to be pushed,
-        that is the reason, and nothing is searched.
+        Where the object that has to be grasped is too low or too wide for the fingers, or out of the arm's reach and not to
+        be pushed, that is the reason, and nothing is searched.
 
         Raises:
             PluginError: If ``search`` returns something else than a plan.
@@ -56,17 +56,11 @@ class Planner(ABC, Generic[OptionsT]):
         return replace(plan, cost=task.cost)
 
     def _beyond_reach(self, task: Task) -> Plan | None:
-        """That the object to be grasped cannot be, if so: too low a shelf for the arm, too low for the fingers, or out of reach."""
+        """That the object to be grasped cannot be, if so: shelf, arm and object do not fit together, or it is out of reach."""
         if (wanted := task.goal.grasped(task.scene)) is None:
             return None
-        tall, fingers = task.scene.objects[task.scene.index(wanted)].shape.height, task.arm.fingers_bottom
-        if (top := task.arm.top) >= (ceiling := task.scene.shelf.height):
-            return Plan(
-                Status.FAILED, f"the shelf is {ceiling:g} m high: the arm, up to {top:g} m high, does not go in"
-            )
-        if tall <= fingers + GRAZING:
-            low = f"{wanted} is {tall:g} m tall, and the fingers pass over the board at {fingers:g} m: they cannot grasp it"
-            return Plan(Status.FAILED, low)
+        if misfit := _misfit(task.scene, wanted, task.arm):
+            return Plan(Status.FAILED, misfit)
         beyond = None if self.pushes_target else task.out_of_reach(wanted)
         return None if beyond is None else Plan(Status.FAILED, f"{wanted} is out of reach: {beyond.why}")
 
@@ -84,3 +78,18 @@ class Planner(ABC, Generic[OptionsT]):
         What cannot be solved is a plan with status ``FAILED`` and a reason, never an exception and never None. Let
         ``BudgetExceededError`` pass: ``plan`` deals with it. Do not print. Take chance from ``task.rng`` only.
         """
+
+
+def _misfit(scene: Scene, wanted: str, arm: ArmShape) -> str:
+    """Why an arm cannot grasp an object of a shelf, wherever it stands; empty: it can."""
+    item = scene.objects[scene.index(wanted)]
+    tall, fingers = item.shape.height, arm.fingers_bottom
+    if (top := arm.top) >= (ceiling := scene.shelf.height):
+        return f"the shelf is {ceiling:g} m high: the arm, up to {top:g} m high, does not go in"
+    if tall <= fingers + GRAZING:
+        return (
+            f"{wanted} is {tall:g} m tall, and the fingers pass over the board at {fingers:g} m: they cannot grasp it"
+        )
+    if 2.0 * (item.radius + FINGER_ROOM) > arm.max_opening:
+        return f"{wanted} is {2.0 * item.radius:g} m wide, too wide for a gripper that opens {arm.max_opening:g} m"
+    return ""

@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, JsonValue, PlainSerializer, PlainVal
 
 from phframe.core.errors import InputError, OptionError
 from phframe.core.scene import Scene
+from phframe.core.stored_name import StoredName
 from phframe.core.value import Value
 from phframe.core.variant import variant_name
 
@@ -26,12 +27,6 @@ OPTION_GROUPS = (*PARTS, "scenes")
 """What has options."""
 KEY_LENGTH = 32
 """Hexadecimal digits of a key."""
-
-
-class StoredName(str):
-    """A name that was read from a file. It resolves to what is registered, never to code in a file that it names."""
-
-    __slots__ = ()
 
 
 @dataclass(frozen=True, slots=True)

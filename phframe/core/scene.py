@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from phframe.core.errors import SceneError
+from phframe.core.names import name_fault, name_shown
 from phframe.core.pose import planar_pose
 from phframe.core.scene_check import problems_of
 from phframe.core.shelf import BasePose, SceneObject, Shelf
@@ -31,8 +32,9 @@ class Scene:
         base_poses: Where an arm's base stands, by the arm's name; an arm that is not named uses its own default.
 
     Raises:
-        SceneError: If a figure is not finite or not positive, ids repeat, the target is missing, or objects overlap or
-            stand outside the shelf. It names every problem, with the amounts.
+        SceneError: If a figure is not finite, not positive or beyond what engines bear, a name is no printable line, ids
+            repeat, the target is missing, or objects overlap or stand outside the shelf. It names the first ten problems,
+            with the amounts.
     """
 
     name: str
@@ -44,9 +46,9 @@ class Scene:
     __repr__ = short_repr
 
     def __post_init__(self) -> None:
-        problems = problems_of(self.shelf, self.objects, self.target, self.base_poses)
+        problems = problems_of(self.name, self.shelf, self.objects, self.target, self.base_poses)
         if problems:
-            raise SceneError(problems, self.name)
+            raise SceneError(problems, name_shown(self.name) if name_fault(self.name) else self.name)
 
     @property
     def ids(self) -> tuple[str, ...]:

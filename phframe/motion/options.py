@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
 from phframe.core import BasePose, Options
+from phframe.core.scene_check import base_pose_faults
 
 Acceleration = Annotated[float, Field(gt=0.0, le=100.0)]
 Margin = Annotated[float, Field(ge=0.0, le=0.05)]
@@ -23,8 +24,14 @@ def _read(given: Any) -> Any:
     return given
 
 
+def _near(figures: Figures) -> Figures:
+    for fault in base_pose_faults("a base pose", BasePose(*figures)):
+        raise ValueError(fault)
+    return figures
+
+
 Figures = tuple[float, float, float, float]
-Mounting = Annotated[Figures | Literal["auto"] | None, BeforeValidator(_read)]
+Mounting = Annotated[Annotated[Figures, AfterValidator(_near)] | Literal["auto"] | None, BeforeValidator(_read)]
 
 
 class ArticulatedOptions(Options):

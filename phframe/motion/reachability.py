@@ -20,6 +20,8 @@ SPACING = 0.05
 """Of the grid of fingertip positions (m)."""
 INSET = 0.03
 """Kept between the grid and mouth, walls and back (m): what stands there is no nearer, being as wide as the usual object."""
+MOST_POSITIONS = 40
+"""Of the grid along one axis: in larger shelves they are farther apart, so that a map is done in minutes at most."""
 Cell = tuple[int, int]
 
 
@@ -66,7 +68,7 @@ def reachability(
         shelf: The shelf.
         arm: The arm.
         base_pose: Where its base stands.
-        spacing: Of the positions tried (m).
+        spacing: Of the positions tried (m), as far as they are no more than ``MOST_POSITIONS`` along an axis.
         enough: Fraction of the positions from which on no more are tried: what is said of the others is then that they
             are not reached.
     """
@@ -122,5 +124,7 @@ def _has(arm: ArmModel[Any], base_pose: BasePose, pose: FloatArray) -> bool:
 
 def _positions(length: float, spacing: float) -> FloatArray:
     count = max(1, int((length - 2.0 * INSET) / spacing + 1e-9) + 1)
+    if count > MOST_POSITIONS:
+        return np.linspace(INSET, length - INSET, MOST_POSITIONS)
     start = (length - (count - 1) * spacing) / 2.0
     return np.asarray(start + spacing * np.arange(count, dtype=np.float64))

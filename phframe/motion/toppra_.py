@@ -24,6 +24,8 @@ FINER, GRIDS = 3, 3
 """Times as many, and grids that are tried: at points of a coarse one it may find that it can hardly go on at all."""
 CREEPING = 2.0, 0.5
 """What takes more than so many times its time at full speed, and so many seconds besides, may be creeping."""
+BEYOND = 1.1
+"""What has to be so many times slower to keep to its limits is tried on a finer grid: between points TOPP-RA exceeds them."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,11 +63,33 @@ def time_optimal(path: FloatArray, speeds: FloatArray, accelerations: FloatArray
     grid = fraction if len(fraction) >= LEAST_GRID else np.linspace(0.0, fraction[-1], LEAST_GRID)
     found: list[TimedPath] = []
     for _ in range(GRIDS):
-        found += _quickest(spline, grid, speeds, accelerations)
-        if found and not _creeps(found[-1], fraction):
-            return found[-1]
+        curve = _quickest(spline, grid, speeds, accelerations)
+        if curve is not None:
+            slower = _excess(_sampled(curve, 1.0), speeds, accelerations)
+            found.append(_within(_sampled(curve, slower), speeds, accelerations))
+            if slower <= BEYOND and not _creeps(found[-1], fraction):
+                return found[-1]
         grid = _divided(grid)
-    return min([*found, _uniform(spline, fraction, speeds, accelerations)], key=lambda each: float(each.times[-1]))
+    found.append(_within(_uniform(spline, fraction, speeds, accelerations), speeds, accelerations))
+    return min(found, key=lambda each: float(each.times[-1]))
+
+
+def _excess(found: TimedPath, speeds: FloatArray, accelerations: FloatArray) -> float:
+    """How many times slower a motion has to be to keep within its limits at, and from, every sample; at least 1."""
+    rates = np.abs(np.diff(found.speeds, axis=0)) / np.diff(found.times)[:, None]
+    return max(1.0, float((np.abs(found.speeds) / speeds).max()), float(np.sqrt((rates / accelerations).max())))
+
+
+def _within(found: TimedPath, speeds: FloatArray, accelerations: FloatArray) -> TimedPath:
+    """A motion as much slower all along as it has to be."""
+    slower = _excess(found, speeds, accelerations)
+    return TimedPath(found.times * slower, found.values, found.speeds / slower)
+
+
+def _sampled(curve: Any, slower: float) -> TimedPath:
+    """A motion of TOPP-RA's at so many samples that they are close enough once it is so much slower."""
+    times = np.linspace(0.0, curve.duration, max(2, int(np.ceil(curve.duration * slower / SPACING)) + 1))
+    return TimedPath(times, np.asarray(curve(times)), np.asarray(curve(times, 1)))
 
 
 def _apart(path: FloatArray, speeds: FloatArray) -> IntArray:
@@ -102,19 +126,15 @@ def _divided(grid: FloatArray) -> FloatArray:
     return np.append((grid[:-1, None] + np.diff(grid)[:, None] * parts).ravel(), grid[-1])
 
 
-def _quickest(spline: Any, grid: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> list[TimedPath]:
-    """TOPP-RA's motion along a spline whose parameter is the time at full speed, if it finds any."""
+def _quickest(spline: Any, grid: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> Any:
+    """TOPP-RA's motion along a spline whose parameter is the time at full speed; None: it finds none."""
     logging.getLogger("toppra").setLevel(logging.ERROR)  # it warns where it finds none
     limits = [
         toppra.constraint.JointVelocityConstraint(np.column_stack([-speeds, speeds])),
         toppra.constraint.JointAccelerationConstraint(np.column_stack([-accelerations, accelerations])),
     ]
     solver = toppra.algorithm.TOPPRA(limits, spline, gridpoints=grid, parametrizer="ParametrizeConstAccel")
-    found = solver.compute_trajectory(0.0, 0.0)
-    if found is None:
-        return []
-    times = np.linspace(0.0, found.duration, max(2, int(np.ceil(found.duration / SPACING)) + 1))
-    return [TimedPath(times, np.asarray(found(times)), np.asarray(found(times, 1)))]
+    return solver.compute_trajectory(0.0, 0.0)
 
 
 def _uniform(spline: Any, fraction: FloatArray, speeds: FloatArray, accelerations: FloatArray) -> TimedPath:

@@ -9,6 +9,7 @@ from functools import lru_cache
 from itertools import accumulate, chain
 
 from phframe.core import Action, ArmShape, Infeasible, Scene, Shelf, State
+from phframe.core.arm import FINGER_ROOM
 from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.geometry.arm_view import ArmView
 from phframe.pushing.corridor import Corridor
@@ -18,7 +19,7 @@ from phframe.pushing.reach import FREE, Fit, Reaches, Severity, Surroundings
 
 YAW_STEPS = tuple(math.radians(degrees) for degrees in (0, 5, -5, 10, -10, 15, -15, 20, -20, 25, -25, 30, -30))
 """Deviations from the corridor's axis, tried in this order as far as the options allow (rad)."""
-FITS = ((0.02, 0.008), (0.01, 0.005), (0.004, 0.003))
+FITS = ((0.02, 0.008), (0.01, 0.005), (0.004, FINGER_ROOM))
 """How far the fingertips go past the target's centre, and the room between it and each open finger (m): wide first."""
 KEPT_FITS = 16
 """For how many pairs of an arm and a target the views are kept: those used last."""

@@ -48,7 +48,7 @@ def open_viewer(path: Path) -> subprocess.Popen[bytes]:
     require_viewer(path)
     nowhere = subprocess.DEVNULL
     return subprocess.Popen(
-        [sys.executable, "-m", "rerun", str(path)],
+        [sys.executable, "-P", "-m", "rerun", str(path)],
         stdin=nowhere,
         stdout=nowhere,
         stderr=nowhere,

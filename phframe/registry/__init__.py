@@ -4,7 +4,7 @@ from phframe.registry.catalogue import Broken, Catalogue, Entry
 from phframe.registry.extension import API_VERSION, Extension, Kind
 from phframe.registry.hookspec import hookimpl
 from phframe.registry.load import create, identify, load, refuse_stored_code
-from phframe.registry.manager import catalogue, discover
+from phframe.registry.manager import builtins, catalogue, discover, look_up
 from phframe.registry.versions import versions
 
 __all__ = [
@@ -14,12 +14,14 @@ __all__ = [
     "Entry",
     "Extension",
     "Kind",
+    "builtins",
     "catalogue",
     "create",
     "discover",
     "hookimpl",
     "identify",
     "load",
+    "look_up",
     "refuse_stored_code",
     "versions",
 ]

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from phframe.core.distributions import HOME, normalized
 from phframe.core.errors import UnknownNameError
 from phframe.registry.extension import Extension, Kind
 from phframe.registry.requirements import missing
-
-HOME = "phframe"
-"""The distribution of the built-ins."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,8 +108,3 @@ def named(entries: Iterable[Entry]) -> tuple[Entry, ...]:
         return entry.extension.name if only or entry.distribution == HOME else entry.qualified_name
 
     return tuple(replace(entry, name=name(entry)) for entry in entries)
-
-
-def normalized(distribution: str) -> str:
-    """The one spelling of a distribution's name: ``Phframe_Look.Ahead`` is ``phframe-look-ahead``."""
-    return re.sub(r"[-_.]+", "-", distribution).lower()

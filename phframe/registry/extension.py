@@ -13,6 +13,8 @@ API_VERSION = 2
 FIRST_API_VERSION = 1
 
 _NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
+_LONGEST = 300
+"""Characters of a text."""
 _TARGET = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
 
@@ -44,7 +46,7 @@ class Extension:
         variants: Options with which it is listed as a thing of its own, such as ``sweeps=paper``, each with its summary.
 
     Raises:
-        PluginError: If the name or the target is not of that form.
+        PluginError: If one is not of that form, or too long.
     """
 
     kind: Kind
@@ -58,9 +60,37 @@ class Extension:
 
     def __post_init__(self) -> None:
         if self.kind not in list(Kind):
-            raise PluginError(f"no kind of extension is called {self.kind!r}; there is: {', '.join(Kind)}")
+            raise PluginError(f"no kind of extension is called {_short(self.kind)}; there is: {', '.join(Kind)}")
         object.__setattr__(self, "kind", Kind(self.kind))
-        if not _NAME.fullmatch(self.name):
-            raise PluginError(f"{self.kind} {self.name!r}: a name is lower-case words and digits joined by '-'")
-        if not _TARGET.fullmatch(self.target):
-            raise PluginError(f"{self.kind} {self.name!r}: the target {self.target!r} is not 'module:Class'")
+        if not (_is_line(self.name) and _NAME.fullmatch(self.name)):
+            raise PluginError(f"{self.kind} {_short(self.name)}: a name is lower-case words and digits joined by '-'")
+        if not (_is_line(self.target) and _TARGET.fullmatch(self.target)):
+            raise PluginError(f"{self.kind} {self.name!r}: the target {_short(self.target)} is not 'module:Class'")
+        if type(self.api_version) is not int:
+            raise PluginError(
+                f"{self.kind} {self.name!r}: the api_version {_short(self.api_version)} is no whole number"
+            )
+        for text in self._texts():
+            if not _is_line(text):
+                raise PluginError(
+                    f"{self.kind} {self.name!r}: {_short(text)} is no line of at most {_LONGEST} printable characters"
+                )
+
+    def _texts(self) -> tuple[object, ...]:
+        """All that is told of it as it stands."""
+        try:
+            variants = [text for pair in self.variants for text in pair]
+            return (self.summary, *(() if self.extra is None else (self.extra,)), *self.uses, *variants)
+        except TypeError:
+            raise PluginError(
+                f"{self.kind} {self.name!r}: 'uses' is a tuple of names, 'variants' one of options and summaries"
+            ) from None
+
+
+def _is_line(text: object) -> bool:
+    return isinstance(text, str) and text.isprintable() and len(text) <= _LONGEST
+
+
+def _short(value: object) -> str:
+    text = ascii(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."

@@ -9,8 +9,9 @@ from traceback import extract_tb
 from types import ModuleType
 from typing import Any
 
-from phframe.core.errors import InputError, PluginError, UnknownNameError
+from phframe.core.errors import InputError, PluginError, UnknownNameError, error_text
 from phframe.core.paths import user_path
+from phframe.registry.foreign import foreign_code
 
 
 def is_file(spec: str) -> bool:
@@ -32,12 +33,13 @@ def load_from_file(spec: str, interface: type) -> Any:
     """
     file, name = _split(spec)
     module = _run(user_path(file))
-    known = [key for key, value in vars(module).items() if _is_own(value, interface, module)]
-    if not name:
-        raise InputError(f"say which class of {file} is meant, such as {file}:{known[0] if known else 'Mine'}")
-    if not hasattr(module, name):
-        raise UnknownNameError(f"{interface.__name__} in {file}", name, known)
-    return getattr(module, name)
+    with foreign_code(f"{file} cannot be looked at"):
+        known = [key for key, value in vars(module).items() if _is_own(value, interface, module)]
+        if not name:
+            raise InputError(f"say which class of {file} is meant, such as {file}:{known[0] if known else 'Mine'}")
+        if not hasattr(module, name):
+            raise UnknownNameError(f"{interface.__name__} in {file}", name, known)
+        return getattr(module, name)
 
 
 def _split(spec: str) -> tuple[str, str]:
@@ -61,12 +63,13 @@ def _run(path: Path) -> ModuleType:
         module.__file__ = str(path.resolve())
         sys.modules[name] = module  # before it runs: dataclasses look their own module up
         try:
-            exec(compile(source, module.__file__, "exec"), vars(module))
+            with foreign_code(str(path)):
+                exec(compile(source, module.__file__, "exec"), vars(module))
         except BaseException as error:
-            del sys.modules[name]
-            if not isinstance(error, (Exception, SystemExit)):
+            sys.modules.pop(name, None)
+            if error.__cause__ is None or not isinstance(error, PluginError):
                 raise
-            raise PluginError(f"{_place(error, path)}: {_what(error)}") from error
+            raise PluginError(f"{_place(error.__cause__, path)}: {_what(error.__cause__)}") from error.__cause__
     return sys.modules[name]
 
 
@@ -78,4 +81,4 @@ def _place(error: BaseException, path: Path) -> str:
 
 
 def _what(error: BaseException) -> str:
-    return error.msg if isinstance(error, SyntaxError) else f"{type(error).__name__}: {error}"
+    return error.msg if isinstance(error, SyntaxError) else error_text(error)

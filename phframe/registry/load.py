@@ -7,32 +7,29 @@ from importlib import import_module
 from types import MappingProxyType
 from typing import Any
 
-from phframe.core.arm import ArmModel
+from phframe import core
+from phframe.core.distributions import HOME
 from phframe.core.errors import InputError, NotInstalledError, OptionError, PluginError
-from phframe.core.goal import Goal
-from phframe.core.physics import Physics
-from phframe.core.planner import Planner
-from phframe.core.run_spec import StoredName
-from phframe.core.suite import SceneSuite
-from phframe.core.topology import TopologyEngine
+from phframe.core.stored_name import StoredName
 from phframe.core.variant import merged_options, split_variant
 from phframe.registry.catalogue import Catalogue, Entry
 from phframe.registry.extension import Kind
+from phframe.registry.foreign import foreign_code
 from phframe.registry.from_file import is_file, load_from_file
-from phframe.registry.manager import catalogue
+from phframe.registry.manager import builtins, catalogue, find
 from phframe.registry.requirements import missing
 
-INTERFACES: Mapping[Kind, type] = MappingProxyType(
+INTERFACES: Mapping[Kind, str] = MappingProxyType(
     {
-        Kind.PLANNER: Planner,
-        Kind.BACKEND: Physics,
-        Kind.ARM: ArmModel,
-        Kind.TOPOLOGY: TopologyEngine,
-        Kind.SCENES: SceneSuite,
-        Kind.GOAL: Goal,
+        Kind.PLANNER: "Planner",
+        Kind.BACKEND: "Physics",
+        Kind.ARM: "ArmModel",
+        Kind.TOPOLOGY: "TopologyEngine",
+        Kind.SCENES: "SceneSuite",
+        Kind.GOAL: "Goal",
     }
 )
-"""What the classes of each kind are subclasses of; kinds that are not here have no interface."""
+"""What, of ``phframe.core``, the classes of each kind are subclasses of; kinds that are not here have no interface."""
 
 
 def load(kind: Kind, part: Any, registered: Catalogue | None = None) -> Any:
@@ -55,10 +52,10 @@ def load(kind: Kind, part: Any, registered: Catalogue | None = None) -> Any:
         return _checked(kind, loaded.__name__, loaded)
     part, _ = split_variant(part)
     if not is_file(part):
-        entry = (registered or catalogue()).find(kind, part)
+        entry = registered.find(kind, part) if registered else find(kind, part)
         return _checked(kind, entry.name, _import(entry))
     refuse_stored_code(kind, part)
-    return _checked(kind, part, load_from_file(part, INTERFACES.get(kind, object)))
+    return _checked(kind, part, load_from_file(part, _interface(kind) or object))
 
 
 def refuse_stored_code(role: str, part: Any) -> None:
@@ -89,6 +86,7 @@ def create(kind: Kind, part: Any, options: Mapping[str, Any] | None = None, regi
 
     Raises:
         OptionError: If an option is unknown, of the wrong type or out of range, or given with an object.
+        PluginError: If it cannot be made.
         PhframeError: As ``load``.
     """
     loaded = load(kind, part, registered)
@@ -97,7 +95,8 @@ def create(kind: Kind, part: Any, options: Mapping[str, Any] | None = None, regi
             raise OptionError(f"{kind} {loaded.__name__} is an object with options of its own: give it none beside it")
         return part
     name, given = merged_options(part, options or {}) if isinstance(part, str) else (part.__name__, options or {})
-    return loaded(loaded.options_type.parse(given, f"{kind} {name}"))
+    with foreign_code(f"{kind} {name!r} cannot be made"):
+        return loaded(loaded.options_type.parse(given, f"{kind} {name}"))
 
 
 def identify(kind: Kind, part: Any, options: Mapping[str, Any] | None = None) -> tuple[Any, Mapping[str, Any]]:
@@ -112,7 +111,8 @@ def identify(kind: Kind, part: Any, options: Mapping[str, Any] | None = None) ->
     if isinstance(part, str):
         return merged_options(part, options or {})
     own = load(kind, part)
-    names = [entry.name for entry in catalogue().extensions(kind) if entry.extension.target == _target(own)]
+    registered = builtins() if own.__module__.partition(".")[0] == HOME else catalogue()
+    names = [entry.name for entry in registered.extensions(kind) if entry.extension.target == _target(own)]
     if isinstance(part, type) or not names:
         return (names or [part])[0], options or {}
     create(kind, part, options)  # refuses options beside it
@@ -126,28 +126,36 @@ def _target(cls: type) -> str:
 def _import(entry: Entry) -> Any:
     module, _, name = entry.extension.target.partition(":")
     what = f"{entry.extension.kind} {entry.name!r}"
-    try:
-        return getattr(import_module(module), name)
-    except (Exception, SystemExit) as error:
-        gap = missing(entry.distribution, entry.extension.extra) if _is_foreign(error, module) else None
-        if gap:
-            raise NotInstalledError(what, gap.library, gap.remedy) from error
-        origin = f"{entry.distribution} {entry.version}".strip()
-        raise PluginError(f"{what} of {origin} does not load: {type(error).__name__}: {error}") from error
+    with foreign_code(f"{what}{_origin(entry)} does not load"):
+        try:
+            return getattr(import_module(module), name)
+        except ModuleNotFoundError as error:
+            if _is_foreign(error, module) and (gap := missing(entry.distribution, entry.extension.extra)):
+                raise NotInstalledError(what, gap.library, gap.remedy) from error
+            raise
 
 
-def _is_foreign(error: BaseException, module: str) -> bool:
+def _origin(entry: Entry | None) -> str:
+    return f" of {entry.distribution} {entry.version}".rstrip() if entry else ""
+
+
+def _is_foreign(error: ModuleNotFoundError, module: str) -> bool:
     """Whether a module is missing that is not the extension's own."""
     own = module.partition(".")[0]
-    return isinstance(error, ModuleNotFoundError) and (error.name or own).partition(".")[0] != own
+    return (error.name or own).partition(".")[0] != own
+
+
+def _interface(kind: Kind) -> type | None:
+    return getattr(core, INTERFACES[kind]) if kind in INTERFACES else None
 
 
 def _checked(kind: Kind, spec: str, loaded: Any) -> Any:
-    interface = INTERFACES.get(kind)
+    interface = _interface(kind)
     if interface is None:
         return loaded
-    if not (isinstance(loaded, type) and issubclass(loaded, interface)):
-        raise PluginError(f"{kind} {spec!r} is not a subclass of phframe.core.{interface.__name__}")
-    if absent := sorted(getattr(loaded, "__abstractmethods__", ())):
-        raise PluginError(f"{kind} {spec!r} does not implement: {', '.join(absent)}")
+    with foreign_code(f"{kind} {spec!r} cannot be looked at"):
+        if not (isinstance(loaded, type) and issubclass(loaded, interface)):
+            raise PluginError(f"{kind} {spec!r} is not a subclass of phframe.core.{interface.__name__}")
+        if absent := sorted(getattr(loaded, "__abstractmethods__", ())):
+            raise PluginError(f"{kind} {spec!r} does not implement: {', '.join(absent)}")
     return loaded

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import platform
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata
@@ -34,13 +36,7 @@ def missing(distribution: str, extra: str | None) -> Missing | None:
         distribution: Its name. One that has no metadata here needs nothing.
         extra: The extra; None asks for what the distribution itself needs.
     """
-    from packaging.requirements import Requirement  # seldom needed, and slow to import
-
-    try:
-        requirements = [Requirement(line) for line in metadata.requires(distribution) or ()]
-    except metadata.PackageNotFoundError:
-        return None
-    for requirement in requirements:
+    for requirement in _requirements(distribution):
         if _belongs(requirement, extra) and not _is_installed(requirement.name):
             return Missing(requirement.name, _remedy(requirement, distribution, extra))
     return None
@@ -52,15 +48,36 @@ def required(distribution: str, extra: str | None = None) -> tuple[str, ...]:
 
     Found out once per process: reading requirements takes longer than planning some pushes.
     """
-    from packaging.requirements import Requirement
     from packaging.utils import canonicalize_name
 
-    try:
-        requirements = [Requirement(line) for line in metadata.requires(distribution) or ()]
-    except metadata.PackageNotFoundError:
-        return ()
-    here = [each for each in requirements if each.marker is None or each.marker.evaluate({"extra": extra or ""})]
+    here = [each for each in _requirements(distribution) if _applies(each, extra)]
     return tuple(canonicalize_name(each.name) for each in here if _belongs(each, extra))
+
+
+def _requirements(distribution: str) -> list[Requirement]:
+    """What a distribution asks for; lines that are no requirements are left out."""
+    from packaging.requirements import InvalidRequirement, Requirement  # seldom needed, and slow to import
+
+    found = []
+    for line in _lines(distribution):
+        with suppress(InvalidRequirement):
+            found.append(Requirement(line))
+    return found
+
+
+def _lines(distribution: str) -> Sequence[str]:
+    try:
+        return metadata.requires(distribution) or ()
+    except Exception:  # noqa: BLE001 - there is none, or none that can be read: it asks for nothing
+        return ()
+
+
+def _applies(requirement: Requirement, extra: str | None) -> bool:
+    """Whether it is asked for on this platform; one that compares what cannot be compared is not."""
+    try:
+        return requirement.marker is None or requirement.marker.evaluate({"extra": extra or ""})
+    except ValueError:
+        return False
 
 
 def _belongs(requirement: Requirement, extra: str | None) -> bool:
@@ -74,12 +91,12 @@ def _is_installed(name: str) -> bool:
         return True
     try:
         return bool(metadata.version(name))
-    except metadata.PackageNotFoundError:
+    except (metadata.PackageNotFoundError, OSError, ValueError):
         return False
 
 
 def _remedy(requirement: Requirement, distribution: str, extra: str | None) -> str:
-    if requirement.marker is None or requirement.marker.evaluate({"extra": extra or ""}):
+    if _applies(requirement, extra):
         return f'pip install "{distribution}[{extra}]"' if extra else f'pip install "{distribution}"'
     python = f"{platform.python_implementation()} {platform.python_version()}"
     return f"There is no wheel of it for {python} on {platform.system()} {platform.machine()}"

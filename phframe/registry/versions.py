@@ -7,9 +7,10 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib import metadata
 
-from phframe.registry.catalogue import HOME, Catalogue
+from phframe.core.distributions import HOME
+from phframe.registry.catalogue import Catalogue
 from phframe.registry.extension import Kind
-from phframe.registry.manager import catalogue
+from phframe.registry.manager import look_up
 from phframe.registry.requirements import required
 
 
@@ -24,7 +25,7 @@ def versions(used: Iterable[tuple[Kind, str]], registered: Catalogue | None = No
     """
     found: dict[str, None] = dict.fromkeys([HOME, *required(HOME)])
     for kind, name in used:
-        if (entry := (registered or catalogue()).entry(kind, name)) is None:
+        if (entry := registered.entry(kind, name) if registered else look_up(kind, name)) is None:
             continue
         extension = entry.extension
         extras = [extra for extra in (extension.extra, *extension.uses) if extra]
@@ -43,6 +44,6 @@ def _of_extras(distribution: str, extras: Iterable[str]) -> Iterator[str]:
 @cache
 def _version(distribution: str) -> str:
     try:
-        return metadata.version(distribution)
-    except metadata.PackageNotFoundError:
+        return metadata.version(distribution) or ""
+    except (metadata.PackageNotFoundError, OSError, ValueError):
         return "unknown" if distribution == HOME else ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from phframe.core import FloatArray, Floats, Value
+from phframe.core import Floats, Value
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,7 +84,7 @@ class ForeignScene:
     blocks: tuple[Block, ...]
     bodies: tuple[FreeBody, ...]
     target: str
-    base_poses: Mapping[str, FloatArray]
+    base_poses: Mapping[str, Floats]
     ignored: tuple[str, ...]
 
 

@@ -18,6 +18,7 @@ from pydantic import (
 from pydantic_core import PydanticCustomError, core_schema
 
 from phframe.core import SceneObject, Shelf
+from phframe.core.names import LONGEST_NAME, name_fault
 
 FORMAT = 1
 """The format of scene files that this version reads and writes."""
@@ -40,7 +41,7 @@ def _figures(names: str) -> BeforeValidator:
 
 
 def _one_line(text: str) -> str:
-    if not text.isprintable() or text != text.strip():
+    if name_fault(text):
         raise PydanticCustomError("one_line", "expected printable text on one line, without spaces at its ends")
     return text
 
@@ -48,7 +49,7 @@ def _one_line(text: str) -> str:
 Number = Annotated[float, Strict()]
 Size = Annotated[Number, Field(gt=0)]
 Friction = Annotated[Number, Field(ge=0)]
-Name = Annotated[str, Strict(), Field(min_length=1, max_length=100), AfterValidator(_one_line)]
+Name = Annotated[str, Strict(), Field(min_length=1, max_length=LONGEST_NAME), AfterValidator(_one_line)]
 Position = Annotated[tuple[Number, Number], _figures("x, y")]
 Base = Annotated[tuple[Number, Number, Number, Number], _figures("x, y, z, yaw")]
 

@@ -5,6 +5,7 @@ Free bodies are objects, boxes and planes fixed to the world may be a shelf. Eve
 
 from __future__ import annotations
 
+import json
 import warnings
 import xml.etree.ElementTree as ET
 from collections import Counter
@@ -16,9 +17,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from phframe.core import FloatArray, InputError, SceneError, yaw_of
+from phframe.core import FloatArray, InputError, PhframeError, SceneError, yaw_of
+from phframe.core.bounded_process import answer
 from phframe.core.paths import path_shown, user_path
 from phframe.scenes.foreign import Block, ForeignScene, FreeBody, listed
+from phframe.scenes.foreign_file import ForeignReading
 from phframe.scenes.mjcf import MOUNT_PREFIX, TARGET_KEY
 
 MAX_BYTES = 20_000_000
@@ -37,15 +40,28 @@ _SHAPES = {
 }
 
 
-def read_mjcf(path: str | Path) -> ForeignScene:
-    """What is in a MuJoCo XML file.
+def read_mjcf(path: str | Path, source: str | None = None) -> ForeignScene:
+    """What is in a MuJoCo XML file, read in this process; of files that are not known, ``read_foreign`` is the way.
+
+    Args:
+        path: The file.
+        source: What it is called in errors; None: its path.
 
     Raises:
         InputError: If the file cannot be read.
         SceneError: If MuJoCo cannot make a model of it.
     """
-    source, file = path_shown(path), user_path(path)
+    source, file = source or path_shown(path), user_path(path)
     _refuse_unreasonable(_content(file, source), source)
+    try:
+        return _read(file, source)
+    except (PhframeError, MemoryError):
+        raise
+    except Exception as error:  # noqa: BLE001 - MuJoCo meets files of any kind, and whatever it raises is about that file
+        raise SceneError(f"MuJoCo cannot make a model of it: {_in_a_line(error)}", source) from None
+
+
+def _read(file: Path, source: str) -> ForeignScene:
     with _quiet():
         model, lost = _compiled(file, source)
         data = mujoco.MjData(model)
@@ -289,3 +305,18 @@ class _Reading:
             "keyframes, so that all is taken as it stands without": model.nkey,
         }
         self._ignored += [f"{what}: {count}" for what, count in counts.items() if count]
+
+
+def _reading(question: bytes) -> bytes:
+    path, source = json.loads(question)
+    try:
+        reading = ForeignReading(read_mjcf(path, source))
+    except SceneError as error:
+        reading = ForeignReading(problems=error.problems)
+    except PhframeError as error:
+        reading = ForeignReading(unreadable=str(error))
+    return reading.to_json()
+
+
+if __name__ == "__main__":
+    answer(_reading)

@@ -15,7 +15,7 @@ from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, CylinderPart, ObjectPart, ScenePart
 from phframe.yaml.file import read_text, refuse_size
 from phframe.yaml.tree import YamlTree, parse_yaml
-from phframe.yaml.wording import shortened, shown
+from phframe.yaml.wording import shown
 
 _WHAT = "scene file"
 
@@ -85,7 +85,7 @@ def _scene(part: ScenePart, source: str) -> Scene:
     try:
         return Scene(part.name, shelf, tuple(_object(item) for item in part.objects), part.target, base_poses)
     except SceneError as error:
-        raise SceneError(shortened(error.problems), source) from None
+        raise SceneError(error.problems, source) from None
 
 
 def _object(part: ObjectPart) -> SceneObject:

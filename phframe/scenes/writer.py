@@ -8,31 +8,19 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
-from phframe.core import Scene, SceneError, SceneObject
+from phframe.core import Scene, SceneObject
 from phframe.core.files import write_file
 from phframe.core.paths import user_path
-from phframe.scenes.complaints import complaints
 from phframe.scenes.model import FORMAT, ScenePart
 from phframe.scenes.shapes import figures_of
 from phframe.yaml.scalars import plain_scalar
-from phframe.yaml.tree import YamlTree
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*")
 
 
 def scene_to_yaml(scene: Scene) -> str:
-    """The text of a scene file; what has its default value is left out.
-
-    Raises:
-        SceneError: If a name in the scene cannot be written: empty, over 100 characters, or not printable.
-    """
-    content = scene_content(scene)
-    try:
-        part = ScenePart.model_validate(content)
-    except ValidationError as error:
-        raise SceneError(complaints(error, YamlTree(content, {})), scene.name) from None
+    """The text of a scene file; what has its default value is left out."""
+    part = ScenePart.model_validate(scene_content(scene))
     return "\n".join(_lines(part.model_dump(exclude_defaults=True))) + "\n"
 
 
@@ -41,7 +29,6 @@ def write_scene(scene: Scene, path: str | Path) -> None:
 
     Raises:
         InputError: If the file cannot be written.
-        SceneError: If a name in the scene cannot be written.
     """
     write_file(user_path(path), scene_to_yaml(scene))
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.util import find_spec
-from io import BytesIO
 from pathlib import Path
 from typing import ClassVar
 
@@ -14,14 +12,15 @@ import numpy as np
 from scipy.spatial import ConvexHull as QuickHull
 from scipy.spatial import QhullError
 
-from phframe.core import ArmError, FloatArray, IntArray, NotInstalledError
+from phframe.core import ArmError, FloatArray, IntArray
 from phframe.core.value import Floats, Ints, Value, frozen_ints
 from phframe.urdf.solids import ORIGIN, Vector, rotation
+from phframe.urdf.trimesh_ import mesh_points
 
 STL_HEADER, STL_FACET = 84, 50
 """Bytes of a binary STL file before its facets, and of each of them."""
-COLLADA = (".dae", ".zae")
-"""Suffixes of what trimesh reads by a library of its own."""
+MOST_BYTES, MOST_POINTS = 200_000_000, 500_000
+"""Of a mesh; what is beyond is no collision geometry that anything could be planned with."""
 NUMBER = rb"[-+.0-9eE]+"
 
 
@@ -73,7 +72,11 @@ def read_hull(path: Path, scale: Vector) -> tuple[FloatArray, IntArray]:
         NotInstalledError: If what reads this format is not installed.
     """
     try:
-        return _hull(path.read_bytes(), path.suffix.lower(), scale)
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+        if len(content) > MOST_BYTES:
+            raise ValueError(f"it is larger than {MOST_BYTES // 1_000_000} MB")
+        return _hull(content, path.suffix.lower(), scale)
     except (OSError, ValueError, QhullError) as error:
         raise ArmError(f"cannot make a convex hull of the mesh {path}: {_first_line(error)}") from None
 
@@ -84,6 +87,8 @@ def _hull(content: bytes, suffix: str, scale: Vector) -> tuple[FloatArray, IntAr
     points = np.unique(_points(content, suffix) * scale, axis=0)
     if len(points) < 4 or not np.isfinite(points).all():
         raise ValueError(f"it has {len(points)} points in space where four finite ones are needed")
+    if len(points) > MOST_POINTS:
+        raise ValueError(f"it has {len(points)} points; at most {MOST_POINTS} are taken. Give a coarser mesh.")
     hull = QuickHull(points)
     triangles = hull.simplices.copy()
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
@@ -99,7 +104,7 @@ def _points(content: bytes, suffix: str) -> FloatArray:
         return _stl(content)
     if suffix == ".obj":
         return _numbers(rb"^\s*v\s+(%s)\s+(%s)\s+(%s)", content)
-    return _by_trimesh(content, suffix)
+    return mesh_points(content, suffix)
 
 
 def _stl(content: bytes) -> FloatArray:
@@ -113,21 +118,6 @@ def _stl(content: bytes) -> FloatArray:
 def _numbers(line: bytes, content: bytes) -> FloatArray:
     found = re.findall(line % (NUMBER, NUMBER, NUMBER), content, re.MULTILINE)
     return np.array(found, dtype=np.bytes_).astype(np.float64).reshape(-1, 3)
-
-
-def _by_trimesh(content: bytes, suffix: str) -> FloatArray:
-    """COLLADA and whatever else trimesh reads; it turns and scales what its file says is turned and scaled."""
-    libraries = ("trimesh", "collada") if suffix in COLLADA else ("trimesh",)
-    missing = next((library for library in libraries if find_spec(library) is None), None)
-    if missing is not None:
-        remedy = 'pip install "phframe[meshes]", or give the collision geometry as STL or OBJ'
-        raise NotInstalledError(f"a collision mesh of the type {suffix or 'without a suffix'}", missing, remedy)
-    import trimesh
-
-    try:
-        return np.asarray(trimesh.load_scene(BytesIO(content), file_type=suffix[1:]).to_geometry().vertices)
-    except Exception as error:  # noqa: BLE001 - its readers raise anything, of XML, of zip files, of missing keys
-        raise ValueError(f"trimesh cannot read it: {_first_line(error)}") from None
 
 
 def _first_line(error: Exception) -> str:

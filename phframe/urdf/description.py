@@ -9,11 +9,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, field_validator
 
-from phframe.core import InputError
+from phframe.core import DocumentError, InputError
+from phframe.core.paths import path_shown, user_path
 from phframe.urdf.model import Robot
 from phframe.urdf.reader import read_robot
+from phframe.yaml.file import read_text
+from phframe.yaml.tree import YamlTree, parse_yaml
+from phframe.yaml.wording import shortened
 
 FORMAT = 1
+URDF_BYTES = 5_000_000
+"""Of the largest URDF or SRDF that is read; those of humanoids have a tenth of it."""
 
 
 def _as_tuple(value: Any) -> Any:
@@ -125,55 +131,42 @@ def read_description(path: Path) -> tuple[ArmDescription, Robot]:
     Raises:
         InputError: If a file cannot be read, or does not say what it must.
     """
-    description = _validated(path)
+    description, folder = _validated(path), user_path(path).parent
     if not description.urdf:
-        raise InputError(f"{path}: urdf must name the robot's URDF file")
-    urdf = path.parent / description.urdf
-    robot = read_robot(_text(urdf), urdf.parent)
+        raise InputError(f"{path_shown(path)}: urdf must name the robot's URDF file")
+    urdf = folder / description.urdf
+    robot = read_robot(read_text(urdf, "URDF", URDF_BYTES), urdf.parent)
     if description.srdf:
-        allowed = (*description.allowed_collisions, *_disabled_collisions(path.parent / description.srdf))
+        allowed = (*description.allowed_collisions, *_disabled_collisions(folder / description.srdf))
         description = description.model_copy(update={"allowed_collisions": allowed})
     return description, robot
 
 
 def _validated(path: Path) -> ArmDescription:
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import YAMLError
-
+    source = path_shown(path)
+    tree = parse_yaml(read_text(path, "arm description"), source)
+    if not isinstance(tree.content, dict):
+        raise DocumentError("a description is made of keys and values, as in 'height: 0.1'", source)
     try:
-        content = YAML(typ="safe", pure=True).load(_text(path))
-        if not isinstance(content, dict):
-            raise InputError(f"{path}: a description is made of keys and values, as in 'height: 0.1'")
-        return ArmDescription.model_validate(content)
-    except YAMLError as error:
-        raise InputError(f"{path}: not valid YAML: {' '.join(str(error).split())}") from None
+        return ArmDescription.model_validate(tree.content)
     except ValidationError as error:
-        raise InputError(f"{path}: " + "; ".join(_sentence(each) for each in error.errors())) from None
+        raise DocumentError(shortened(_sentence(each, tree) for each in error.errors()), source) from None
 
 
 def _disabled_collisions(path: Path) -> Iterator[tuple[str, str]]:
     """The pairs of links that an SRDF (http://wiki.ros.org/srdf) takes out of collision checking."""
     try:
-        root = ET.fromstring(_text(path))
+        root = ET.fromstring(read_text(path, "SRDF", URDF_BYTES))
     except ET.ParseError as error:
-        raise InputError(f"{path}: the SRDF is not XML: {error}") from None
+        raise DocumentError(f"the SRDF is not XML: {error}", path_shown(path)) from None
     for element in root.iter("disable_collisions"):
         first, second = element.get("link1", ""), element.get("link2", "")
         if not first or not second:
-            raise InputError(f"{path}: a <disable_collisions> lacks link1 or link2")
+            raise DocumentError("a <disable_collisions> lacks link1 or link2", path_shown(path))
         yield first, second
 
 
-def _text(path: Path) -> str:
-    try:
-        return path.read_text("utf-8")
-    except UnicodeDecodeError:
-        raise InputError(f"{path} is not UTF-8 text") from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None
-
-
-def _sentence(error: Any) -> str:
+def _sentence(error: Any, tree: YamlTree) -> str:
     where = ".".join(str(step) for step in error["loc"]) or "the file"
     message = error["msg"].removeprefix("Value error, ")
-    return f"{where}: {message[:1].lower()}{message[1:]}"
+    return f"line {tree.line(error['loc'])}: {where}: {message[:1].lower()}{message[1:]}"

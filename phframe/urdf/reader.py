@@ -16,6 +16,8 @@ from phframe.urdf.solids import ORIGIN, Inertia, Solid, Vector
 KINDS = ("fixed", "revolute", "continuous", "prismatic")
 TURN = 3.141592653589793
 """Either way, of a joint that turns for ever (rad)."""
+MOST_LINKS = 1000
+"""Of a robot."""
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 Colors = dict[str, Color | None]
 
@@ -37,6 +39,8 @@ def read_robot(text: str, folder: Path | None = None) -> Robot:
         raise ArmError(f"the URDF is not XML: {error}") from None
     if root.tag != "robot":
         raise ArmError(f"the URDF begins with <{root.tag}>, not with <robot>")
+    if len(root.findall("link")) > MOST_LINKS:
+        raise ArmError(f"the URDF has more than {MOST_LINKS} links; that is no arm")
     colors: Colors = {material.get("name", ""): _color(material) for material in root.findall("material")}
     links = [_link(element, folder, colors) for element in root.findall("link")]
     return Robot.of(root.get("name", "robot"), links, map(_joint, root.findall("joint")))
@@ -61,7 +65,10 @@ def _inertia(element: ET.Element | None, link: str) -> Inertia | None:
     at, rpy = _origin(element)
     numbers = [0.0 if moments is None else _given(moments, key, owner) for key in MOMENTS]
     xx, xy, xz, yy, yz, zz = numbers
-    inertia = Inertia(_number(element.find("mass"), "value", owner), ORIGIN, (xx, xy, xz, yy, yz, zz))
+    mass = _number(element.find("mass"), "value", owner)
+    if mass < 0.0 or min(xx, yy, zz) < 0.0:
+        raise ArmError(f"{owner} of the URDF has a mass or a moment below 0")
+    inertia = Inertia(mass, ORIGIN, (xx, xy, xz, yy, yz, zz))
     return inertia.moved(at, rpy) if any(rpy) else Inertia(inertia.mass, at, inertia.moments)
 
 

@@ -1,4 +1,4 @@
-"""The text of a file that somebody wrote."""
+"""The text of a file that somebody wrote, YAML or other."""
 
 from __future__ import annotations
 
@@ -11,39 +11,40 @@ MAX_BYTES = 1_000_000
 """Larger files are refused unread: a scene of a thousand objects has a tenth of that."""
 
 
-def read_text(path: str | Path, what: str) -> str:
+def read_text(path: str | Path, what: str, most: int = MAX_BYTES) -> str:
     """The text of a file.
 
     Args:
         path: The file.
         what: It is to be, for the error, such as ``scene file``.
+        most: Bytes of the largest that is read.
 
     Raises:
         InputError: If it cannot be read.
         DocumentError: If it is too large, or not UTF-8.
     """
     source = path_shown(path)
-    return _decoded(_content(user_path(path), source, what), source)
+    return _decoded(_content(user_path(path), source, what, most), source)
 
 
-def refuse_size(size: int, source: str, what: str) -> None:
+def refuse_size(size: int, source: str, what: str, most: int = MAX_BYTES) -> None:
     """See that a text is not too large for a file of its kind.
 
     Raises:
         DocumentError: If it is.
     """
-    if size > MAX_BYTES:
-        raise DocumentError(f"larger than {MAX_BYTES // 1_000_000} MB; that is no {what}", source)
+    if size > most:
+        raise DocumentError(f"larger than {most // 1_000_000} MB; that is no {what}", source)
 
 
-def _content(path: Path, source: str, what: str) -> bytes:
+def _content(path: Path, source: str, what: str, most: int) -> bytes:
     try:
         with path.open("rb") as file:
-            content = file.read(MAX_BYTES + 1)
+            content = file.read(most + 1)
     except (OSError, ValueError) as error:  # ValueError: a path with a zero byte
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(f"cannot read the {what} {source}: {reason[:1].lower()}{reason[1:]}") from None
-    refuse_size(len(content), source, what)
+    refuse_size(len(content), source, what, most)
     return content
 
 

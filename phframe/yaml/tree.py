@@ -6,6 +6,7 @@ multiply, tags cannot construct, a key given twice is seen, and every complaint 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
@@ -21,6 +22,8 @@ MAX_VALUES = 50_000
 """Keys, values, lists and mappings in one file; a scene of a thousand objects has about 15,000."""
 
 Path = tuple[str | int, ...]
+
+_HALF_CHARACTER = re.compile("[\ud800-\udfff]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +128,8 @@ class _Builder:
 
     def scalar(self, event: Any) -> None:
         self.check_plain(event)
+        if _HALF_CHARACTER.search(event.value):
+            raise _StopError(f"{shown(event.value)} holds half of a character (a lone surrogate)")
         level = self.levels[-1] if self.levels else None
         if level and isinstance(level.container, dict) and level.key is None:
             self.begin_entry(level, event.value)

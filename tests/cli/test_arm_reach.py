@@ -60,6 +60,7 @@ def test_without_matplotlib_it_says_what_to_install(run: Run, tmp_path: Path, wo
         (["reach", "--scene", "vieira/basik"], "Did you mean 'vieira/basic'?"),
         (["reach", "--mount", "nan", "0", "0", "0"], "finite"),
         (["reach", "--mount", "1", "0"], "--mount"),
+        (["reach", "--mount", "1e300", "0", "0", "0"], "x is 1e+300; distances (m) are from -100 to 100"),
         (["reach", "--option", "margin=1"], "no planner here"),
         (["reach", "--option", "arm.link_width=0"], "link_width"),
         (["reach", "--out", "-"], "--out FILE.png"),

@@ -63,7 +63,7 @@ def test_a_built_in_command_wins_and_the_other_can_be_asked_for(invoke: Invoke) 
 def test_what_goes_wrong_in_them_is_one_line(invoke: Invoke) -> None:
     for arguments, code, said in [
         (["many", "first", "x"], 2, "See 'phframe many first --help'"),
-        (["many", "second"], 70, "ValueError: oh"),
+        (["many", "second"], 2, "command 'many' of lab-plugin 1.0 failed: ValueError: oh"),
         (["useless"], 2, "neither a function nor a typer.Typer"),
         (["absent"], 2, "does not load"),
         (["gret"], 2, "Did you mean 'greet'?"),

@@ -1,7 +1,9 @@
 from __future__ import annotations
 
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Barrier
 
 import pytest
 
@@ -45,6 +47,33 @@ def test_a_directory_filled_since_it_was_checked_is_not_touched() -> None:
     Path("a/file").write_text("")
     with pytest.raises(InputError, match="not empty"):
         directory.make()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="which has no locks of directories")
+def test_of_runs_that_are_given_one_directory_at_once_one_has_it(tmp_path: Path) -> None:
+    for there in (False, True):
+        place = tmp_path / str(there)
+        if there:
+            place.mkdir()
+        runs = [RunDirectory(place) for _ in range(8)]
+        start = Barrier(len(runs))
+
+        def made(run: RunDirectory, start: Barrier = start) -> str:
+            start.wait()
+            try:
+                run.make()
+            except InputError as error:
+                return str(error)
+            return ""
+
+        with ThreadPoolExecutor(len(runs)) as pool:
+            said = sorted(pool.map(made, runs))
+        assert said[0] == ""
+        assert all("in use by another run" in each for each in said[1:])
+        for run in runs:
+            run.discard_if_empty()
+        assert not place.exists()
+        RunDirectory(place).make()
 
 
 def test_only_an_empty_directory_is_discarded() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from phframe.core import (
+    BasePose,
     Condition,
     Cylinder,
     Scene,
@@ -19,6 +20,7 @@ from phframe.core import (
     planar_pose,
 )
 from phframe.core.scene_check import CONTACT_TOLERANCE
+from phframe.core.scene_limits import MOST_OBJECTS
 
 SHELF = Shelf(0.6, 0.5)
 A = SceneObject("a", Cylinder(0.03), (0.2, 0.2))
@@ -86,6 +88,71 @@ def test_touching_is_no_problem() -> None:
         "touching", SHELF, (at(0.34 + CONTACT_TOLERANCE / 2.0, 0.2), T, replace(A, id="w", position=(0.2, 0.03))), "t"
     )
     assert scene.ids == ("a", "t", "w")
+
+
+def test_what_engines_leave_in_contact_is_touching_and_no_more() -> None:
+    rim = 0.4 - 0.06 + CONTACT_TOLERANCE
+    tall = replace(T, shape=Cylinder(0.03, SHELF.height + CONTACT_TOLERANCE / 2.0))
+    Scene("pressed", SHELF, (at(rim - 1e-6, 0.2), tall, replace(A, id="w", position=(0.2, 0.0291))), "t")
+    assert problems(at(rim + 1e-6, 0.2), T) == ("objects 'a' and 't' overlap by 1.0 mm",)
+    assert problems(replace(T, shape=Cylinder(0.03, SHELF.height + 2 * CONTACT_TOLERANCE))) == (
+        "object 't' is 0.402 m tall; the shelf is 0.4 m high",
+    )
+
+
+@pytest.mark.parametrize(
+    ("item", "problem"),
+    [
+        (replace(A, mass=1e-20), "object 'a': mass is 1e-20 kg; the least is 0.001 kg: engines"),
+        (replace(A, mass=1e20), "object 'a': mass is 1e+20 kg; the most is 1000 kg: no arm"),
+        (replace(A, friction=1e9), "object 'a': friction is 1e+09; the most is 10: "),
+        (replace(A, shape=Cylinder(1e-9)), "object 'a': radius is 1e-09 m; the least is 0.001 m: "),
+        (replace(A, shape=Cylinder(0.03, 1e9)), "object 'a': height is 1e+09 m; the most is 10 m: "),
+        (replace(A, yaw=1e300), "object 'a': yaw is 1e+300; headings (rad) are from -100 to 100"),
+    ],
+)
+def test_what_engines_do_not_bear_is_refused_with_the_reason(item: SceneObject, problem: str) -> None:
+    (found,) = problems(item, T)
+    assert found.startswith(problem)
+
+
+@pytest.mark.parametrize("name", ["depth", "width", "height"])
+@pytest.mark.parametrize("figure", [1e-6, 1000.0])
+def test_a_shelf_is_of_the_size_of_one(name: str, figure: float) -> None:
+    (found,) = problems(A, T, shelf=replace(SHELF, **{name: figure}))
+    assert found.startswith(f"shelf {name} is {figure:g} m; the ")
+
+
+def test_of_many_problems_ten_are_told_and_the_others_not_looked_for() -> None:
+    crowd = [replace(A, id=f"o{number}") for number in range(MOST_OBJECTS - 1)]
+    found = problems(*crowd, T)
+    assert (len(found), found[0], found[-1]) == (11, "objects 'o0' and 'o1' overlap by 60.0 mm", "and more")
+    (refused,) = problems(*crowd, T, replace(A, id="one more"))
+    assert refused.startswith("it has 1001 objects; at most 1000")
+
+
+@pytest.mark.parametrize(
+    "bad",
+    ["", " a", "a\nb", "x" * 101, "\u202e", "\ud800", "\x1b[2J", "a" * 10**6],
+    ids=lambda bad: bad[:9].encode("ascii", "backslashreplace").hex(),
+)
+def test_names_are_short_lines_that_can_be_shown(bad: str) -> None:
+    named: list[tuple[str, SceneObject, dict[str, BasePose]]] = [
+        (bad, T, {}),
+        ("s", replace(T, id=bad), {}),
+        ("s", T, {bad: BasePose(0.0, 0.0, 0.0, 0.0)}),
+    ]
+    for name, item, base_poses in named:
+        with pytest.raises(SceneError) as caught:
+            Scene(name, SHELF, (item,), item.id, base_poses)
+        assert str(caught.value).isprintable()
+        assert len(str(caught.value)) < 400
+
+
+@pytest.mark.parametrize("figure", [1e300, float("nan")])
+def test_a_base_stands_near_the_shelf(figure: float) -> None:
+    with pytest.raises(SceneError, match="base pose of 'planar': "):
+        Scene("s", SHELF, (T,), "t", {"planar": BasePose(figure, 0.0, 0.0, 0.0)})
 
 
 def test_a_scene_knows_its_rows() -> None:

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phframe.core import OptionError
-from phframe.core.run_spec import StoredName
+from phframe.core.stored_name import StoredName
 from phframe.core.variant import merged_options, split_variant, variant_name
 
 KEYS = st.from_regex(r"[a-z_]{1,8}", fullmatch=True)

@@ -206,7 +206,7 @@ class ManyActions(Planner[Options]):
         poses = np.tile([-0.6, 0.3, 0.0], (self.legs + 1, 1))
         poses[::2, 1] += 0.2
         path = GripperPath(poses, (Phase.APPROACH,) * self.legs, {Phase.APPROACH: rule})
-        action = Action("to and fro", path)
+        action = Action("back and forth", path)
         return Plan.of(Status.CLEARED, "", task.start, [(action, task.start)] * self.number)
 
 

@@ -13,7 +13,7 @@ import pytest
 
 from phframe.arms.planar import PlanarArm, PlanarArmOptions
 from phframe.core import ArmModel, BasePose, Cylinder, Scene, SceneObject, Shelf, compose, inverse, planar_pose
-from phframe.motion.reachability import INSET, reachability
+from phframe.motion.reachability import INSET, MOST_POSITIONS, reachability
 from phframe.motion.straight_way import YAWS
 from phframe.registry import Kind, create
 from tests.prism import PRISM
@@ -42,6 +42,13 @@ def test_a_planar_arm_reaches_all_that_its_link_fits_into() -> None:
 def test_of_a_wide_arm_less_is_within_reach() -> None:
     wide = PlanarArm(PlanarArmOptions(link_width=0.5))
     assert 0.1 < fraction(wide, wide.default_base_pose(SHELF)) < 0.6
+
+
+def test_the_map_of_a_large_shelf_is_coarser_but_no_larger() -> None:
+    arm, hall = PlanarArm(PlanarArmOptions()), Shelf(10.0, 0.3)
+    reach = reachability(hall, arm, arm.default_base_pose(hall))
+    assert reach.yaws.shape == (5, MOST_POSITIONS)
+    assert (reach.depths[0], reach.depths[-1]) == pytest.approx((INSET, 10.0 - INSET))
 
 
 def test_a_mount_out_of_reach_is_worth_nothing() -> None:

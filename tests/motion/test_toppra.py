@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 pytest.importorskip("toppra")
 
 from phframe.core import FloatArray
-from phframe.motion.toppra_ import TimedPath, time_optimal
+from phframe.motion.toppra_ import SPACING, TimedPath, time_optimal
 
 pytestmark = pytest.mark.needs_baxter
 
@@ -18,8 +18,9 @@ SPEEDS = np.array([1.35, 1.35, 1.35, 1.35, 3.6, 3.6, 3.6, 0.1, 0.2])
 ACCELERATIONS = np.array([6.0] * 7 + [5.0, 3.0])
 """Of seven joints, the opening and the way of the fingertip, as Baxter's motion planner has them."""
 WAY = 8
-SLACK = 1.05
-"""Limits hold at the points of a grid; between them splines bend."""
+SLACK = 1.0 + 1e-9
+BENT = 1.05
+"""The mean speed between two samples, where a spline bends."""
 
 
 def nominal(path: FloatArray) -> float:
@@ -33,12 +34,14 @@ def check(path: FloatArray) -> TimedPath:
     found = time_optimal(path, SPEEDS, ACCELERATIONS)
     assert found.times[0] == 0.0
     assert (np.diff(found.times) > 0.0).all()
-    assert np.diff(found.times).max() <= 0.0201
+    assert np.diff(found.times).max() <= 1.5 * SPACING
     np.testing.assert_allclose(found.values[[0, -1]], path[[0, -1]], atol=1e-3)
     assert np.abs(found.speeds[[0, -1]] / SPEEDS).max() < 1e-3, "from rest to rest"
     assert (np.abs(found.speeds) <= SPEEDS * SLACK).all()
+    accelerations = np.abs(np.diff(found.speeds, axis=0)) / np.diff(found.times)[:, None]
+    assert (accelerations <= ACCELERATIONS * SLACK).all()
     steps = np.abs(np.diff(found.values, axis=0)) / np.diff(found.times)[:, None]
-    assert (steps <= SPEEDS * SLACK).all(), "speeds are those of the values"
+    assert (steps <= SPEEDS * BENT).all(), "speeds are those of the values"
     return found
 
 
@@ -57,9 +60,6 @@ def test_paths_as_they_come_are_driven_quickly_within_limits(seed: int, points: 
     found = check(path)
     assert found.times[-1] <= 3.0 * nominal(path) + 0.5
     assert found.times[-1] >= (np.abs(path[-1] - path[0]) / SPEEDS).max() / SLACK
-    if jitter == 0.0 and points > 2:
-        accelerations = np.abs(np.diff(found.speeds, axis=0)) / np.diff(found.times)[:, None]
-        assert (accelerations <= ACCELERATIONS * 1.1 + 0.05).all()
 
 
 CREPT = (9, 119, 169, 204, 679, 843, 1059, 1159, 1204, 1208, 1329)

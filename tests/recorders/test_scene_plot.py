@@ -86,7 +86,7 @@ def test_ids_fit_on_their_objects_and_can_be_left_out() -> None:
 
 @pytest.mark.parametrize(
     "scene",
-    [BASIC, NARROW, replace(NARROW, name="\u68da $x$"), replace(BASIC, shelf=Shelf(20.0, 0.61))],
+    [BASIC, NARROW, replace(NARROW, name="\u68da $x$"), replace(BASIC, shelf=Shelf(10.0, 0.61))],
     ids=["basic", "narrow", "letters without glyphs", "long"],
 )
 def test_the_picture_is_a_png_with_something_on_it_whatever_the_scene(scene: Scene) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from importlib import metadata
-from importlib.metadata import EntryPoint
 from itertools import count
 from pathlib import Path
 from textwrap import dedent
@@ -57,14 +56,9 @@ def found(site: Path) -> Discover:
     """Discover the built-ins and what was installed here, and nothing else."""
 
     def found(**settings: object) -> Catalogue:
-        return discover(entry_points_in(site), **settings)  # type: ignore[arg-type]
+        return discover(metadata.distributions(path=[str(site)]), **settings)  # type: ignore[arg-type]
 
     return found
-
-
-def entry_points_in(folder: Path) -> list[EntryPoint]:
-    distributions = metadata.distributions(path=[str(folder)])
-    return [point for dist in distributions for point in dist.entry_points if point.group == "phframe"]
 
 
 def offering(*names: str, kind: str = "planner", **more: object) -> str:

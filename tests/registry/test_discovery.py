@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pickle
+from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,7 @@ import phframe
 from phframe.core.errors import PluginError, UnknownNameError
 from phframe.registry import API_VERSION, Catalogue, Kind, catalogue, discover, load
 from phframe.registry.builtin import EXTENSIONS
-from tests.registry.conftest import Discover, Install, entry_points_in, offering
+from tests.registry.conftest import Discover, Install, offering
 
 BUILT_IN = [extension.name for extension in EXTENSIONS if extension.kind is Kind.PLANNER]
 NOT_AN_ANSWER = "@hookimpl\ndef phframe_extensions():\n    return {}\n"
@@ -63,6 +64,7 @@ def test_of_two_plugins_with_one_name_neither_has_it(install: Install, found: Di
     [
         ("raise ValueError('bad\\nday')", "ValueError: bad day"),
         ("import sys; sys.exit(3)", "SystemExit: 3"),
+        ("raise KeyboardInterrupt", "KeyboardInterrupt"),
         ("import no_such_module", "ModuleNotFoundError: No module named 'no_such_module'"),
         ("def f(:", "SyntaxError: "),
         ("@hookimpl\ndef phframe_extensions():\n    return 1 / 0", "ZeroDivisionError: division by zero"),
@@ -96,12 +98,6 @@ def test_a_broken_plugin_is_mentioned_where_its_name_is_missed(install: Install,
     install("bad", NOT_AN_ANSWER)
     with pytest.raises(UnknownNameError, match=r"plugin bad 1\.0 is not loaded: .* returned a dict"):
         found().find(Kind.PLANNER, "straight")
-
-
-def test_ctrl_c_is_not_a_broken_plugin(install: Install, found: Discover) -> None:
-    install("slow", "raise KeyboardInterrupt")
-    with pytest.raises(KeyboardInterrupt):
-        found()
 
 
 def test_strict_makes_a_broken_plugin_an_error(install: Install, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -152,11 +148,11 @@ def test_a_catalogue_can_be_sent_to_another_process(install: Install, found: Dis
     assert pickle.loads(pickle.dumps(found())) == found()
 
 
-def test_discovery_does_not_depend_on_the_order_of_the_entry_points(install: Install, site: Path) -> None:
+def test_discovery_does_not_depend_on_the_order_of_the_distributions(install: Install, site: Path) -> None:
     for name in ("one", "two", "three"):
         install(name, offering("straight", name))
-    points = entry_points_in(site)
-    assert discover(points) == discover(points[::-1])
+    found = list(metadata.distributions(path=[str(site)]))
+    assert discover(found) == discover(found[::-1])
 
 
 def test_a_name_is_looked_up_where_asked(install: Install, found: Discover) -> None:

@@ -90,6 +90,19 @@ def test_a_goal_without_a_grasp_needs_no_reach() -> None:
 
 
 @pytest.mark.parametrize("planner", [Asked(Options()), Pusher(Options())])
+def test_a_target_that_the_fingers_cannot_enclose_is_refused_at_once(planner: Planner[Any]) -> None:
+    """Whoever plans, and in every engine: the planar arm's gripper opens 0.08 m, and the fingers need 3 mm of room each."""
+    for radius, asked in ((0.0369, True), (0.0371, False), (0.12, False)):
+        wide = replace(SCENE.objects[SCENE.target_index], shape=Cylinder(radius, 0.12))
+        with PlanningWorld(WorldSpec(replace(SCENE, objects=(wide,)))) as world:
+            topology, rng = create(Kind.TOPOLOGY, "ripser"), np.random.default_rng(0)
+            found = planner.plan(world.task(world.scene.initial_state(), topology, rng, goal=RETRIEVE))
+        assert (found.reason == "asked") is asked, found
+        assert asked or f"{2.0 * radius:g} m wide, too wide for a gripper that opens 0.08 m" in found.reason
+        assert found.cost.simulated_actions == 0
+
+
+@pytest.mark.parametrize("planner", [Asked(Options()), Pusher(Options())])
 def test_a_target_that_the_fingers_pass_over_is_refused_at_once(planner: Planner[Any]) -> None:
     """Whoever plans, and in every engine: the fingers of the planar arm begin 0.04 m above the board."""
     for height, asked in ((0.03, False), (0.0399, False), (0.041, True)):

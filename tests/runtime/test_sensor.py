@@ -29,7 +29,7 @@ def as_seen(scene: Scene, seen: State) -> list[str]:
     """What would be wrong with the scene, were it as it is seen."""
     pairs = zip(scene.objects, seen.positions, strict=True)
     moved = [replace(item, position=(float(x), float(y))) for item, (x, y) in pairs]
-    return problems_of(scene.shelf, moved, scene.target, {})
+    return problems_of(scene.name, scene.shelf, moved, scene.target, {})
 
 
 @given(st.sampled_from(PUBLISHED), st.sampled_from([0.001, 0.005, 0.02, 0.05]), st.integers(0, 1000))

@@ -152,6 +152,12 @@ BAD: dict[str, tuple[str, list[str]]] = {
     "deep": ("[" * 1000 + "]" * 1000, [f"nested more than {MAX_DEPTH} levels deep"]),
     "deep blocks": ("- " * 1000, [f"nested more than {MAX_DEPTH} levels deep"]),
     "deep keys": ("? " * 1000, ["line 1: a key is a list, mapping or alias"]),
+    "half a character in a key": (
+        GOOD + 'mount: {"\\ud800": [0, 0, 0, 0]}\n',
+        ["line 8: '\\ud800' holds half of a character"],
+    ),
+    "half a character": (changed("object_1", '"\\udfff"'), ["line 6: '\\udfff' holds half of a character"]),
+    "too heavy": (changed("radius: 0.03", "radius: 0.03, mass: 1e20"), ["mass is 1e+20 kg; the most is 1000 kg"]),
     "too large": ("#" * (MAX_BYTES + 1), ["larger than 1 MB"]),
 }
 

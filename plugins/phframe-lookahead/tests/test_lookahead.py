@@ -97,7 +97,7 @@ def test_what_was_rejected_is_not_proposed_again() -> None:
 
 @pytest.fixture
 def installed() -> None:
-    if not [point for point in metadata.entry_points(group="phframe") if point.name == "lookahead"]:
+    if not [point for point in metadata.distributions() if point.name == "lookahead"]:
         pytest.skip("phframe-lookahead is importable here, but not installed")
 
 
@@ -110,7 +110,7 @@ def test_an_episode_is_run_with_it_by_name() -> None:
 
 @pytest.mark.usefixtures("installed")
 def test_it_is_found_by_its_entry_point() -> None:
-    found = discover(metadata.entry_points(group="phframe"), only=["phframe-lookahead"])
+    found = discover(metadata.distributions(), only=["phframe-lookahead"])
     entry = found.find(Kind.PLANNER, "lookahead")
     assert (entry.distribution, entry.extension) == ("phframe-lookahead", phframe_extensions()[0])
     assert load(Kind.PLANNER, "lookahead", found) is Lookahead
