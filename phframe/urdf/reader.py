@@ -43,7 +43,7 @@ def read_robot(text: str, folder: Path | None = None) -> Robot:
         raise ArmError(f"the URDF has more than {MOST_LINKS} links; that is no arm")
     colors: Colors = {material.get("name", ""): _color(material) for material in root.findall("material")}
     links = [_link(element, folder, colors) for element in root.findall("link")]
-    return Robot.of(root.get("name", "robot"), links, map(_joint, root.findall("joint")))
+    return Robot.of(root.get("name") or "robot", links, map(_joint, root.findall("joint")))
 
 
 def _link(element: ET.Element, folder: Path | None, colors: Colors) -> Link:
