@@ -313,13 +313,19 @@ def test_every_key_of_the_listings_is_explained() -> None:
 
 
 def test_the_table_of_readme_holds_the_counts_of_the_experiment() -> None:
-    plane = {row[0]: (row[1], "121") for row in table("docs/experiment.md", "In the plane")}
-    space = {(row[0], row[1]): tuple(row[2].split(" of ")) for row in table("docs/experiment.md", "In space")}
-    planners = ("phia", "phis", "phim", "ooa")
+    plane: dict[str, tuple[str, ...]] = {row[0]: (row[1], "121") for row in table("docs/experiment.md", "In the plane")}
+    rows = table("docs/experiment.md", "In space")
+    space = {(engine, arm, each): tuple(counts.split(" of ")) for engine, arm, each, counts, *_ in rows}
+    clean = {(engine, arm): row[2] for engine, arm, each, *row in rows if each == "sure"}
+    planners = ("phis", "phim", "phia", "ooa")
     assert "| " + " | ".join(f"`{each}`" for each in planners) + " |" in text_of(README)
-    for backend, arm, problems, *counts in table("README.md", "Measured"):
-        told = [plane[each] if backend == "pymunk" else space[arm, each] for each in planners]
-        assert [(count, problems) for count in counts] == told
+    for backend, arm, problems, sure, of_sure, *counts in table("README.md", "What it does best"):
+        if backend == "pymunk":
+            told = {each: plane[each] for each in ("sure", *planners)}
+        else:
+            told = {each: space.get((backend, arm, each), ("", problems)) for each in ("sure", *planners)}
+            assert of_sure == clean[backend, arm]
+        assert {each: (count, problems) for each, count in zip(told, (sure, *counts), strict=True)} == told
 
 
 def test_every_method_of_an_engine_of_joints_is_explained() -> None:

@@ -18,7 +18,7 @@ from phframe.core.run_spec import PARTS
 from phframe.core.variant import split_variant
 from phframe.registry import Kind, look_up
 from phframe.registry.from_file import is_file
-from phframe.runtime.versions import versions_of
+from phframe.runtime.versions import CPU, versions_of
 
 _ROOT = Path(phframe.__file__).parent
 _NO_SAY = (
@@ -32,7 +32,7 @@ _LENGTH = 16
 def surroundings(specs: Iterable[RunSpec]) -> Environment:
     """Where runs are carried out by this process and its children."""
     specs = list(specs)
-    versions = {name: version for spec in specs for name, version in versions_of(spec).items()}
+    versions = {name: version for spec in specs for name, version in versions_of(spec).items() if name != CPU}
     return Environment(
         dict(sorted(versions.items())),
         _commit(),

@@ -38,8 +38,8 @@ class PartialEpisode(Observer):
                 self.kept = True
 
     def finished(self, episode: Episode) -> None:
-        """Know the whole; ``save`` writes it."""
-        self.episode = episode
+        """Keep the whole, before other observers come to their end; ``save`` sees to it that it is on the disk."""
+        self.progressed(episode)
 
     def interrupted(self, episode: Episode) -> None:
         """Keep what there is."""

@@ -6,6 +6,7 @@ order: the episode on the disk says why it got no farther, and no temporary file
 
 from __future__ import annotations
 
+import glob
 import json
 import os
 import select
@@ -36,6 +37,8 @@ TO_EXIT = 10.0
 LOOK = 0.2
 """How often its memory is looked at (s)."""
 EPISODE = "episode.json"
+UNFINISHED = "unfinished"
+"""How the reason of an episode begins that was still running when it was written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +54,9 @@ class Death:
     status: str
     reason: str
     code: int
+
+
+_UNEXPLAINED = Death("failed", "", ExitCode.OTHER_OUTCOME)
 
 
 class Watchdog:
@@ -69,7 +75,7 @@ class Watchdog:
         self._folder: Path | None = None
         self._videos: list[Path] = []
         self._limit, self._what, self._overdue_at = 0.0, "", float("inf")
-        self._kill_at, self._death = float("inf"), Death("failed", "", ExitCode.OTHER_OUTCOME)
+        self._kill_at, self._death = float("inf"), _UNEXPLAINED
         self._signals: list[int] = []
         self._first_signal = 0.0
 
@@ -89,7 +95,10 @@ class Watchdog:
             return self._told(status)
 
     def _ended(self) -> int | None:
-        pid, status = os.waitpid(self._child, os.WNOHANG)
+        try:
+            pid, status = os.waitpid(self._child, os.WNOHANG)
+        except ChildProcessError:  # somebody else has waited for it, as the kernel does where SIGCHLD is ignored
+            return 0
         return None if pid == 0 else os.waitstatus_to_exitcode(status)
 
     def _patience(self) -> float:
@@ -121,8 +130,10 @@ class Watchdog:
             self._kill_at = time.monotonic() + TO_EXIT
 
     def _set_limit(self, seconds: float | None, what: str) -> None:
-        if self._overdue_at == float("inf") and not self._signals:
-            self._kill_at = float("inf")  # it was told that the time is over, and went on to save what there is
+        if self._signals:  # it is to end: how long it may take was said then
+            return
+        if self._overdue_at == float("inf"):  # it was told that the time is over, and went on to save what there is
+            self._kill_at, self._death = float("inf"), _UNEXPLAINED
         self._limit, self._what = seconds or 0.0, what
         self._overdue_at = float("inf") if seconds is None else time.monotonic() + float(seconds) + GRACE
 
@@ -132,6 +143,7 @@ class Watchdog:
         now = time.monotonic()
         self._first_signal = self._first_signal or now
         self._signals.append(number)
+        self._overdue_at = float("inf")
         self._send(number)
         patience = TO_SAVE.get(signal.Signals(number))
         if len(self._signals) > 1:
@@ -142,7 +154,7 @@ class Watchdog:
     def _enforce(self) -> None:
         now = time.monotonic()
         if now >= self._overdue_at:
-            self._overdue_at, self._kill_at = float("inf"), now + LAST_GRACE
+            self._overdue_at, self._kill_at = float("inf"), min(self._kill_at, now + LAST_GRACE)
             reason = f"{self._what} took longer than {self._limit:g} s and was stopped"
             self._death = Death("timeout", reason, ExitCode.OTHER_OUTCOME)
             self._send(signal.SIGALRM)
@@ -183,18 +195,21 @@ class Watchdog:
     def _finish(self, death: Death) -> bool:
         """Have the episode on the disk say how it ended; whether there is one."""
         for video in self._videos:
-            _sweep(video.parent, f".{video.name[:40]}.*.part")
+            _sweep(video.parent, f".{glob.escape(video.name[:40])}.*.part")
         if self._folder is None:
             return False
         _sweep(self._folder, ".*.part")
-        place = self._folder / EPISODE
+        place, part = self._folder / EPISODE, self._folder / f".{EPISODE}.part"
         try:
             document = json.loads(place.read_text(encoding="utf-8"))
+            if not document["episode"]["reason"].startswith(UNFINISHED):  # it was over, and has been judged
+                return True
             document["episode"] |= {"status": death.status, "reason": death.reason}
-            part = place.with_name(f".{EPISODE}.part")
             part.write_text(json.dumps(document), encoding="utf-8")
             part.replace(place)
         except (OSError, ValueError, KeyError, TypeError):
+            with suppress(OSError):
+                part.unlink()
             return place.exists()
         return True
 

@@ -242,8 +242,9 @@ class _LazySearch:
 
     def _is_refuted(self, node: int) -> bool:
         """Whether what leads to a node does not come true where it is confirmed, or in too few samples of the world."""
-        not_true = self._confirmed is not None and self._confirmed.refutes(node)
-        return not_true or self._rehearsals.refutes(node)
+        if self._confirmed is None:
+            return self._rehearsals.refutes(node)
+        return self._confirmed.refutes(node) or self._rehearsals.refutes(self._confirmed.known(node))
 
     def _carried_out(self, node: int, end: int, drive: Drive, grasp: Grasp) -> Plan | None:
         """The plan that ends with a grasp from a node, if it comes true in the engine and by the arm that execute."""

@@ -39,6 +39,15 @@ class Confirmed:
             self._twins[node] = self._confirm(node)
         return self._twins[node]
 
+    def known(self, node: int) -> int:
+        """The last node on the path to a node whose confirmed one is known, as that one; the node itself where none is."""
+        found: int | None = node
+        while found is not None:
+            if (twin := self._twins.get(found)) is not None:
+                return twin
+            found = self._tree[found].parent
+        return node
+
     def _confirm(self, node: int) -> int | None:
         planned = self._tree[node]
         if planned.parent is None or planned.action is None or (parent := self.of(planned.parent)) is None:

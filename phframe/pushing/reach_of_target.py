@@ -98,7 +98,7 @@ class ReachOfTarget:
             for other in others if isinstance(others, list) else ():
                 if why and isinstance(other.grasp, Grasp):
                     why = self._ask_along(known, other, alone) and why
-            if why and known is self._at(self._task.start):
+            if why and np.array_equal(known.place, self._target(self._task.start)):
                 self.never = f"the arm cannot grasp the target at any angle, even in an empty shelf: {why}"
 
     def _ask_along(self, known: _Known, drive: Drive, alone: State) -> str:

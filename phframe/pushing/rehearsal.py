@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from phframe.core import Action, ActionKind, Certainty, Decision, Particle, Plan, State, Status, Task, Transition
+from phframe.core import ROOT, Action, ActionKind, Certainty, Decision, Particle, Plan, State, Status, Task, Transition
 from phframe.pushing.harm import harm
 from phframe.pushing.push_search import PushSearch
 
@@ -72,8 +72,9 @@ class Rehearsals:
         if self._best is None:
             return None
         end, certainty = self._best
-        for row in {end, *self._unsure} & {*self._tree.rows(end)}:
-            self._tree.reopen(row, self._tree[row].decision or Decision())
+        for row in (ROOT, *self._tree.rows(end)):
+            if self._tree[row].closed:
+                self._tree.reopen(row, self._tree[row].decision or Decision())
         self._tree.close_others(end, "another path led to a clean grasp")
         return self._plan(end, certainty)
 

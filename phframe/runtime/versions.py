@@ -11,11 +11,14 @@ from phframe.core import RunSpec
 from phframe.core.run_spec import PARTS
 from phframe.registry import Kind, versions
 
+CPU = "cpu"
+"""The key of the processor among versions; it is none of a library, and can be had nowhere."""
+
 
 def versions_of(spec: RunSpec) -> dict[str, str]:
     """Versions of Python, phframe, and all that the registered parts of a run come from, by distribution; and ``cpu``."""
     named = ((Kind(part.removeprefix("plan_")), getattr(spec, part)) for part in PARTS)
-    return {**versions((kind, name) for kind, name in named if isinstance(name, str)), "cpu": _cpu()}
+    return {**versions((kind, name) for kind, name in named if isinstance(name, str)), CPU: _cpu()}
 
 
 @cache

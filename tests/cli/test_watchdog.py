@@ -128,6 +128,42 @@ def has_ended(process: int) -> bool:
         return True
 
 
+def test_an_episode_that_was_over_stays_as_it_was_judged(folder: Path) -> None:
+    judged = {"phframe": 2, "kind": "episode", "episode": {"status": "retrieved", "reason": ""}}
+    (folder / "episode.json").write_text(json.dumps(judged))
+
+    def dies(tell: Callable[..., object]) -> None:
+        tell(folder=str(folder))
+        os._exit(9)
+
+    assert watched(dies) == 1
+    assert found(folder) == ("retrieved", "")
+
+
+def test_what_is_left_of_a_video_is_swept_whatever_it_is_called(folder: Path) -> None:
+    video = folder.parent / "sure[confirm=false].mp4"
+    part = folder.parent / f".{video.name}.0c.part"
+    part.touch()
+
+    def dies(tell: Callable[..., object]) -> None:
+        tell(video=str(video))
+        os._exit(9)
+
+    assert watched(dies) == 1
+    assert not part.exists()
+
+
+def test_who_ignores_the_end_of_children_gets_the_exit_code_all_the_same() -> None:
+    def ends(tell: Callable[..., object]) -> None:
+        tell(ended=0)
+
+    before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    try:
+        assert watched(ends) == 0
+    finally:
+        signal.signal(signal.SIGCHLD, before)
+
+
 def test_a_limit_that_is_lifted_in_time_does_not_count(folder: Path) -> None:
     def heeds(tell: Callable[..., object]) -> None:
         tell(limit=0.0, what="planning")

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from phframe.cli import watchdog
 from phframe.core import Episode, InputError, Loop, RunSpec, Status
 from phframe.planners.phia import PHIA, PHIAOptions
 from phframe.runtime import episode as closed_loop
@@ -38,6 +39,7 @@ def test_what_is_kept_is_what_there_is_and_in_the_end_what_save_writes(tmp_path:
     sizes = [(len(each.plans), len(each.steps)) for each in growing.given]
     assert sizes == [(0, 0), *((1, steps) for steps in range(len(episode.steps) + 1))]
     assert {(each.status, each.reason) for each in growing.given} == {(Status.FAILED, UNFINISHED)}
+    assert UNFINISHED.startswith(watchdog.UNFINISHED)
     growing.file.save(episode)
     assert growing.file.path.read_bytes() == save(episode, tmp_path / "whole.json").read_bytes()
     assert growing.file.path.stat().st_mode == (tmp_path / "whole.json").stat().st_mode
