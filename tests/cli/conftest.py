@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -58,6 +59,7 @@ def spawn(tmp_path: Path) -> Iterator[Spawn]:
             stderr=subprocess.PIPE,
             text=True,
             env={**os.environ, "PYTHONPATH": path, **environment},
+            preexec_fn=_listen if os.name == "posix" else None,  # noqa: PLW1509 - no thread holds a lock that it needs
         )
         started.append(process)
         return process
@@ -67,6 +69,12 @@ def spawn(tmp_path: Path) -> Iterator[Spawn]:
         if process.poll() is None:
             process.kill()
         process.communicate()
+
+
+def _listen() -> None:
+    """Have a process end by the signals that whoever runs the tests may ignore, as ``nohup`` does."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def until(happened: Callable[[], object], alive: subprocess.Popen[str] | None = None) -> None:
