@@ -20,6 +20,7 @@ from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.world import WorldSpec
 from tests.pushing.parts import often, scene_of
+from tests.pushing.worlds import task_in
 
 TARGET = (0.4, 0.3)
 
@@ -90,8 +91,7 @@ def test_why_there_is_no_drive_is_told() -> None:
 def test_the_budget_is_kept() -> None:
     scene = scene_of(TARGET, (0.2, 0.3))
     with PlanningWorld(WorldSpec(scene)) as world:
-        task = retrieval_task(world)
-        task.budget = Budget(simulations=0)
+        task = task_in(world, budget=Budget(simulations=0))
         with pytest.raises(BudgetExceededError):
             first_blocker(Pushing(task, PushingOptions()), task.start)
 
