@@ -25,7 +25,7 @@ LEFT_OUT = (
 """Beginnings of the commands that are not run, and why."""
 WITHOUT = ("--view", "--video baxter.mp4")
 """What commands are run without: a viewer needs a screen, and that video takes minutes."""
-LISTED = ("phframe bench paper ", "phframe bench vieira papallas ")
+LISTED = ("phframe bench paper ", "phframe bench vieira papallas ", "phframe bench vieira/basic vieira/example-02 ")
 """Beginnings of the benches of which only the trials are listed: they take minutes."""
 
 

@@ -7,7 +7,7 @@ from types import TracebackType
 from typing import Self
 
 from phframe.core import Episode, PhframeError, Plan, RunSpec, Scene, Step
-from phframe.runtime.blame import said_by
+from phframe.core.errors import error_text
 from phframe.runtime.observer import Frames, MountedArm, Observer
 
 
@@ -122,5 +122,4 @@ class Audience(Observer):
 
 
 def _complaint(observer: Observer, error: BaseException) -> str:
-    said = said_by(error) if isinstance(error, PhframeError) else f"{type(error).__name__}: {said_by(error)}"
-    return f"{observer.title or type(observer).__name__} failed: {said}"
+    return f"{observer.title or type(observer).__name__} failed: {error_text(error)}"

@@ -10,14 +10,12 @@ from traceback import extract_tb, walk_tb
 from typing import Any
 
 from phframe.core import PhframeError, RunSpec, SimulationDivergedError
-from phframe.core.errors import BudgetExceededError, NotInstalledError, PartFailedError
+from phframe.core.errors import BudgetExceededError, NotInstalledError, PartFailedError, error_text
 from phframe.core.run_spec import PARTS
 from phframe.core.variant import split_variant
 from phframe.registry import Kind, catalogue, load
 
 HOME = "phframe"
-_LONGEST = 500
-"""Characters of what an exception says."""
 _OUTCOMES = (BudgetExceededError, SimulationDivergedError, NotInstalledError, MemoryError)
 """Exceptions that say what happened whoever raised them."""
 
@@ -118,17 +116,8 @@ def _deed(error: BaseException, culprit: ForeignPart | None) -> str:
     if isinstance(error, SystemExit):
         return f"asked to exit, with {error.code!r:.40}"
     if isinstance(error, PhframeError):
-        return f"met an error: {said_by(error)}"
-    return f"raised {type(error).__name__}: {said_by(error)}".removesuffix(": ") + _place(error, culprit)
-
-
-def said_by(error: BaseException) -> str:
-    """What an exception says, on one line, shortened; also of one whose text raises."""
-    try:
-        text = " ".join(str(error).split())
-    except Exception:  # noqa: BLE001 - whatever it is
-        text = "(its text cannot be had)"
-    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
+        return f"met an error: {error_text(error)}"
+    return f"raised {error_text(error)}" + _place(error, culprit)
 
 
 def _place(error: BaseException, culprit: ForeignPart | None) -> str:

@@ -26,7 +26,6 @@ from phframe.core import (
     Goal,
     Motion,
     Phase,
-    PhframeError,
     Plan,
     Planner,
     PluginError,
@@ -36,11 +35,11 @@ from phframe.core import (
     StopReason,
     Task,
 )
-from phframe.core.errors import BudgetExceededError
+from phframe.core.errors import BudgetExceededError, error_text
 from phframe.core.run_spec import first_fault
 from phframe.core.state import ArmState
 from phframe.registry import Kind
-from phframe.runtime.blame import is_own, said_by, title_of
+from phframe.runtime.blame import is_own, title_of
 from phframe.runtime.files import adapter_of
 
 GoalT = TypeVar("GoalT", bound=Goal[Any])
@@ -64,8 +63,7 @@ def _refusing(title: str) -> Iterator[None]:
     except (PluginError, BudgetExceededError):
         raise
     except Exception as error:
-        what = said_by(error) if isinstance(error, PhframeError) else f"{type(error).__name__}: {said_by(error)}"
-        raise refused(title, f"what it returned cannot be read: {what}") from error
+        raise refused(title, f"what it returned cannot be read: {error_text(error)}") from error
 
 
 def check_arm(arm: ArmModel[Any], name: Any) -> None:

@@ -35,9 +35,9 @@ from phframe.core import (
     Watch,
 )
 from phframe.core.episode import MOVED
-from phframe.core.errors import BudgetExceededError
+from phframe.core.errors import BudgetExceededError, error_text
 from phframe.runtime.aids import Aids
-from phframe.runtime.blame import blamed, said_by
+from phframe.runtime.blame import blamed
 from phframe.runtime.border import ask_planner
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import MountedArm, Observer
@@ -120,7 +120,7 @@ class _Run:
             episode = self._so_far(*self._outcome())
         except BaseException as error:
             told = blamed(error, self._spec)
-            reason = "interrupted by Ctrl-C" if isinstance(error, KeyboardInterrupt) else said_by(told)
+            reason = "interrupted by Ctrl-C" if isinstance(error, KeyboardInterrupt) else error_text(told)
             partial = self._so_far(Status.FAILED, reason)
             self._tell(lambda observer: observer.interrupted(partial))
             if told is error:

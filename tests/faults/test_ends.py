@@ -22,7 +22,7 @@ SCENE = "vieira/simple-07"
 PLUGIN_FAULT, OTHER = 2, 1
 DEEDS = {
     "raises": (PLUGIN_FAULT, "raised RuntimeError: no idea (line "),
-    "raises_what_has_no_text": (PLUGIN_FAULT, "raised MuteError: (its text cannot be had) (line "),
+    "raises_what_has_no_text": (PLUGIN_FAULT, "raised MuteError: it cannot say what is wrong (line "),
     "raises_no_exception": (PLUGIN_FAULT, "raised Unruly: x (line "),
     "asks_to_exit": (PLUGIN_FAULT, "asked to exit, with 0"),
     "exits": (OTHER, "its process ended with exit code 0 before there was a result"),
