@@ -8,6 +8,7 @@ DEMO_EXTRAS ?= rerun
 PICTURES_EXTRAS ?= rerun,mujoco,ompl,baxter,meshes,video,plots,report
 BENCH_EXTRAS ?= dev,fast,rerun,mujoco,pybullet,ompl,baxter
 SCENE ?= vieira/basic
+TIMES ?= 10
 # What is tested with phframe: plugins as their users have them, installed.
 PLUGINS := plugins/phframe-lookahead
 3D := needs_mujoco or needs_pybullet or needs_ompl or needs_baxter or needs_meshes or needs_video
@@ -29,7 +30,7 @@ has_plugins = import importlib.metadata as m; [m.version(name) for name in '$(no
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-3d test-long lint bench pictures clean interpreter FORCE
+.PHONY: help demo test test-3d test-long trials lint bench pictures clean interpreter FORCE
 
 help: ## say what can be made (the default)
 	@echo 'usage: make TARGET [PYTHON=/path/to/python3.11]'
@@ -46,6 +47,10 @@ test: $(call stamp,$(TEST_EXTRAS)) ## run the tests of all that needs no 3D engi
 # What takes minutes: trials that misbehave, killed benches, a cluster, whole reports, a browser.
 test-long: $(call stamp,$(TEST_EXTRAS)) ## run the long tests of benches and their reports
 	@$(VENV)/bin/python -m pytest -p tests.without_3d $(PYTEST_FLAGS) -m 'not ($(3D)) and long'
+
+# The suites of fault injection, as many times over as TIMES says; they print what they tried.
+trials: $(call stamp,$(BENCH_EXTRAS)) ## try to break it, TIMES times as often as the tests do, and count the trials
+	@PHFRAME_TEST_TIMES=$(TIMES) $(VENV)/bin/python -m pytest $(PYTEST_FLAGS) tests/faults tests/conformance/test_any_order.py
 
 test-3d: $(call stamp,$(TEST_3D_EXTRAS)) ## run the tests of the 3D engines and of Baxter
 	@$(VENV)/bin/python -c "import av, mujoco, ompl.base, pinocchio, toppra, trimesh"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import json
 import os
 import signal
@@ -9,7 +10,7 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import typer
 
@@ -88,20 +89,27 @@ def supervised(context: typer.Context, work: Callable[[WatchdogLink], int], memo
         child = os.fork()
     except OSError:  # no process is to be had: without a watchdog, then
         return work(WatchdogLink())
-    if child:
-        from phframe.cli.watchdog import Watchdog
+    if not child:
+        os.close(reader)
+        _carry_out(work, WatchdogLink(writer), parent)
+    from phframe.cli.watchdog import Watchdog
 
-        os.close(writer)
-        os.set_blocking(reader, False)
-        return Watchdog(child, reader, memory).wait()
-    os.close(reader)
-    link = WatchdogLink(writer)
+    os.close(writer)
+    os.set_blocking(reader, False)
+    return Watchdog(child, reader, memory).wait()
+
+
+def _carry_out(work: Callable[[WatchdogLink], int], link: WatchdogLink, parent: int) -> NoReturn:
+    """Do it, in the child, and end it: taking apart what it has imported would take ten times as long as forking did."""
     link.signals.install()
     _end_with(parent)
     link.limit(LOADING, "loading")
     code = _code_of(work, link)
     link.ended(code)
-    return code
+    try:
+        atexit._run_exitfuncs()
+    finally:
+        os._exit(code)
 
 
 def _code_of(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:

@@ -14,6 +14,7 @@ from phframe.core import Episode, Status
 from phframe.runtime.episode import UNFINISHED
 from phframe.runtime.files import load
 from tests.cli.conftest import Spawn, spawn, until, workplace  # noqa: F401 - fixtures
+from tests.trials import TIMES, tried
 
 pytestmark = [
     pytest.mark.slow,
@@ -54,12 +55,14 @@ def kept(process: subprocess.Popen[str], step: int) -> Path:
     return folder
 
 
+@pytest.mark.parametrize("_time", range(TIMES))
 @pytest.mark.parametrize("step", range(STEPS))
 @pytest.mark.parametrize("name", ENDS)
-def test_what_was_done_until_then_is_kept(name: str, step: int, spawn: Spawn) -> None:  # noqa: F811
+def test_what_was_done_until_then_is_kept(name: str, step: int, _time: int, spawn: Spawn) -> None:  # noqa: F811
     process = at_step(spawn, step, "--no-rerun")
     for number in ENDS[name]:
         process.send_signal(number)
+        tried(f"signals: {name}, in an action that does not end")
     kept(process, step)
 
 

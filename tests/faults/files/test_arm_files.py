@@ -18,6 +18,7 @@ from phframe.registry import Kind, create
 from phframe.urdf.convex_hull import read_hull
 from phframe.urdf.reader import MOST_LINKS, read_robot
 from phframe.urdf.trimesh_ import mesh_points
+from tests.trials import many, tried
 
 CORPUS = Path(__file__).parent / "corpus"
 WRONG = [
@@ -67,7 +68,7 @@ def made(tmp_path: Path) -> Made:
 
 @pytest.mark.slow
 @pytest.mark.needs_baxter
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=many(150), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data(), file=st.sampled_from(sorted(WORDS)), wrong=st.sampled_from(WRONG))
 def test_whatever_is_wrong_in_a_file_there_is_an_arm_or_one_line(
     made: Made, data: st.DataObject, file: str, wrong: str
@@ -76,6 +77,7 @@ def test_whatever_is_wrong_in_a_file_there_is_an_arm_or_one_line(
 
     text = (EXAMPLE.parent / file).read_text()
     start, end = data.draw(st.sampled_from([each.span() for each in re.finditer(WORDS[file], text)]))
+    tried(f"inputs: an arm's {file} with one word changed")
     try:
         made(file, text[:start] + wrong + text[end:])
     except PhframeError as error:
