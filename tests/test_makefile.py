@@ -127,7 +127,9 @@ def test_help_lists_every_target_that_is_meant_for_people(bin_folder: Path) -> N
         env={"PATH": str(bin_folder)}, capture_output=True, text=True, check=True,
     )  # fmt: skip
     listed = {line.split("\t")[0].strip() for line in result.stdout.splitlines()[1:]}
-    assert listed == {"help", "demo", "test", "test-3d", "test-long", "trials", "lint", "bench", "pictures", "clean"}
+    assert listed == {
+        "help", "demo", "test", "test-3d", "test-long", "trials", "mutants", "lint", "bench", "pictures", "clean",
+    }  # fmt: skip
 
 
 def recipe(target: str, *options: str) -> str:
