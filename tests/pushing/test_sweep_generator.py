@@ -245,6 +245,26 @@ def test_all_that_clear_are_the_clearing_ones_of_every_way(case: Case) -> None:
 
 
 @often
+@given(anything, st.sampled_from([0.0, 10.0, 15.0, 20.0, 30.0]))
+def test_no_tilt_is_greater_than_allowed_and_one_just_as_great_is(case: Case, degrees: float) -> None:
+    allowed = PushingOptions(max_tilt=math.radians(degrees))
+    within = [push for push in case.geometry.all_clearing() if abs(push.sweep.tilt) <= math.radians(degrees) + 1e-6]
+    assert case.generator(allowed).all_clearing() == within
+
+
+@often
+@given(anything)
+def test_where_there_is_no_room_outside_the_corridor_no_tilt_is_tried_in_vain(case: Case) -> None:
+    corridor, depths = case.corridor, case.local[:, 0]
+    for push in case.pushes:
+        if push.sweep.tilt != 0.0:
+            edge = np.full(len(depths), corridor.axis + push.sweep.direction * HALF_WIDTH)
+            across = corridor.to_shelf(np.column_stack([depths, edge]))[:, 1]
+            assert across.min() > RADIUS
+            assert across.max() < case.shelf.width - RADIUS
+
+
+@often
 @given(anything)
 def test_the_clearance_is_the_least_distance_from_walls_and_target(case: Case) -> None:
     target = np.array([case.target])
@@ -272,6 +292,10 @@ def test_neighbours_keep_the_rules_of_a_sweep(case: Case) -> None:
             assert nearest(case, each) < RADIUS + 1e-4
             changed = (each.sweep.depth != push.sweep.depth) + (each.sweep.tilt != push.sweep.tilt)
             assert changed <= 1
+            deeper, aside = each.sweep.depth - push.sweep.depth, each.sweep.lane - push.sweep.lane
+            assert deeper == 0.0 or abs(deeper) == pytest.approx(RADIUS / 2.0)
+            if not changed and Deviation.LANE_CLAMPED not in each.deviations:
+                assert abs(aside) == pytest.approx(RADIUS / 2.0)
             for pose in fingertip_poses(case, each):
                 assert gap_to_walls(ARM.closed, pose, case.shelf) >= PushingOptions().wall_clearance - 1e-6
         if Deviation.LANE_SHIFTED not in push.deviations:
