@@ -115,10 +115,12 @@ def copy_tree(folder: Path) -> None:
 
 
 def idle_spans(source: str) -> Iterator[Span]:
-    """Where no change could matter: annotations, whether a class has slots, the bare star among parameters."""
+    """Where no change could matter: annotations and literal types, whether a class has slots, the bare star among parameters."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.arg | ast.AnnAssign) and node.annotation is not None:
             yield _span(node.annotation)
+        elif isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name) and node.value.id == "Literal":
+            yield _span(node)
         elif isinstance(node, ast.FunctionDef) and node.returns is not None:
             yield _span(node.returns)
         elif isinstance(node, ast.keyword) and node.arg == "slots":
