@@ -277,6 +277,18 @@ def test_the_clearance_is_the_least_distance_from_walls_and_target(case: Case) -
         assert clearance >= min(walls, beside) - 0.02, "no more than between two samples"
 
 
+def test_a_lone_object_in_the_middle_has_all_six_neighbours_and_at_the_greatest_tilt_five() -> None:
+    generator = Case(Shelf(0.6, 0.6), (0.45, 0.3), np.array([[0.25, 0.32]])).geometry
+    steps = [(-RADIUS / 2.0, 0.0, 0.0), (RADIUS / 2.0, 0.0, 0.0), (0.0, -RADIUS / 2.0, 0.0), (0.0, RADIUS / 2.0, 0.0)]
+    north = [push for push in generator.all_clearing() if push.sweep.direction == 1]
+    for degrees, turned in ((0.0, (-10.0, 10.0)), (30.0, (-10.0,))):
+        push = next(push for push in north if push.sweep.tilt == pytest.approx(math.radians(degrees)))
+        sweep, found = push.sweep, [each.sweep for each in generator.neighbours(push)]
+        changes = [(each.depth - sweep.depth, each.lane - sweep.lane, each.tilt - sweep.tilt) for each in found]
+        expected = [*steps, *[(0.0, 0.0, math.radians(degrees)) for degrees in turned]]
+        np.testing.assert_allclose(sorted(np.round(changes, 9).tolist()), sorted(expected), atol=1e-8)
+
+
 @often
 @given(anything)
 def test_neighbours_keep_the_rules_of_a_sweep(case: Case) -> None:
