@@ -56,8 +56,8 @@ test-long: $(call stamp,$(TEST_EXTRAS)) ## run the long tests of benches and the
 trials: $(call stamp,$(BENCH_EXTRAS)) ## try to break it, TIMES times as often as the tests do, and count the trials
 	@PHFRAME_TEST_TIMES=$(TIMES) $(VENV)/bin/python -m pytest $(PYTEST_FLAGS) tests/faults tests/conformance/test_any_order.py
 
-# Mutants are made in a copy of the tree; what each survivor changes is printed. SAMPLE=0 means all of a room's.
-mutants: $(call stamp,$(MUTATION_EXTRAS)) ## change the code of ROOM in SAMPLE places by chance, each once, and see what its tests do not notice
+# Mutation testing, in a copy of the tree; the rooms are in tests/mutation/rooms.toml, and SAMPLE=0 means all mutants.
+mutants: $(call stamp,$(MUTATION_EXTRAS)) ## make SAMPLE mutants of the code of ROOM and print those that its tests do not notice
 	@$(VENV)/bin/python -m tests.mutation.mutants $(ROOM) --sample $(SAMPLE) --seed $(SEED)
 
 test-3d: $(call stamp,$(TEST_3D_EXTRAS)) ## run the tests of the 3D engines and of Baxter

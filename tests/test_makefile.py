@@ -155,6 +155,12 @@ def test_the_core_is_tested_without_the_libraries_for_3d_and_the_rest_with_all_o
     assert "__import__('pybullet')" in rest
 
 
+def test_mutants_are_made_of_the_room_as_many_as_asked_for_and_by_the_seed() -> None:
+    lines = recipe("mutants", "ROOM=pushing", "SAMPLE=7", "SEED=3", "--always-make")
+    assert "-m tests.mutation.mutants pushing --sample 7 --seed 3" in lines
+    assert ".[dev,mutation]" in lines
+
+
 def test_plugins_are_installed_for_the_tests_and_not_for_the_demonstration() -> None:
     plugins = sorted(path.parent.relative_to(ROOT).as_posix() for path in ROOT.glob("plugins/*/pyproject.toml"))
     assert plugins
