@@ -33,7 +33,17 @@ from phframe.core.particle import Particle
 from phframe.core.physics import Physics, Settle, Stop, SupportsManySimulations, SupportsPropagation, Watch
 from phframe.core.plan import Certainty, Cost, Plan
 from phframe.core.planner import Planner
-from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, seen_from_above, tilt_of, yaw_of
+from phframe.core.pose import (
+    compose,
+    inverse,
+    planar_pose,
+    rotate,
+    rotated,
+    rotation_matrix,
+    seen_from_above,
+    tilt_of,
+    yaw_of,
+)
 from phframe.core.rejection import Rejection
 from phframe.core.run_spec import Loop, RunSpec
 from phframe.core.scene import Scene, coulomb_with_board, drag_on_board
@@ -154,6 +164,7 @@ __all__ = [
     "planar_pose",
     "refuse_foreign",
     "rotate",
+    "rotated",
     "rotation_matrix",
     "seen_from_above",
     "starting_from",
