@@ -20,6 +20,8 @@ from phframe.core import (
     Scene,
     State,
     Status,
+    StopCause,
+    StopReason,
     Task,
     Transition,
 )
@@ -150,6 +152,35 @@ def test_of_several_penalties_a_spill_is_less_than_a_stall_and_that_less_than_no
     found = plan(BLOCKED, answer)
     assert len(tried) >= 2
     assert found.actions[0] == tried[taken]
+
+
+@pytest.mark.parametrize(
+    ("made", "closed"),
+    [
+        (Motion(1.0, stalled=True, largest_force=31.4), "stalled at 31 N"),
+        (Motion(1.0, stopped=StopReason(StopCause.WALL, "back wall")), "contact with the back wall"),
+        (Condition.TOPPLED, "something toppled or spilled"),
+        (Condition.SPILLED, "something toppled or spilled"),
+    ],
+    ids=["stalled", "stopped", "toppled", "spilled"],
+)
+def test_the_tree_tells_what_was_wrong_with_a_push_that_was_not_taken(made: Motion | Condition, closed: str) -> None:
+    tried: list[Action] = []
+
+    def answer(state: State, action: Action) -> Transition:
+        tried.append(action)
+        done = aside(state, action)
+        if len(tried) > 1:
+            return done
+        if isinstance(made, Motion):
+            return replace(done, motion=made)
+        return replace(done, state=replace(done.state, conditions=(Condition.UPRIGHT, made)))
+
+    found = plan(BLOCKED, answer)
+    assert found.tree is not None
+    by_action = {node.action: node.closed for node in found.tree.nodes}
+    assert (by_action[tried[0]], by_action[tried[1]]) == (closed, "")
+    assert found.actions[0] == tried[1]
 
 
 def test_a_target_that_is_pushed_off_the_board_ends_it() -> None:

@@ -54,6 +54,7 @@ def test_an_object_that_is_not_where_it_was_expected_calls_for_a_replan() -> Non
     assert episode.replans == 1
     assert [step.plan for step in episode.steps[:2]] == [0, 1]
     assert planner.tasks[1].start == episode.steps[0].after == episode.steps[1].before
+    assert planner.tasks[1].rejected == (), "something moved: the action is not to blame"
     moved = episode.steps[0].after.displacement(episode.plans[0].expected[0])
     assert moved[BASIC.index(name)] == pytest.approx(0.011, abs=2e-3)
     assert episode.status is Status.RETRIEVED
