@@ -184,8 +184,10 @@ def test_the_limit_on_simulations_is_for_all_planning_together() -> None:
     assert first.budget.simulations == 50
     assert second.budget.simulations == 50 - first.cost.simulated_actions
     enough = first.cost.simulated_actions
-    short = run(Meddling(SPEC, {1: shifted(name, (0.0, 0.02))}), loop=Loop(simulations=enough))
+    planner = Noting()
+    short = run(Meddling(SPEC, {1: shifted(name, (0.0, 0.02))}), planner, loop=Loop(simulations=enough))
     assert (short.status, short.replans, len(short.steps)) == (Status.TIMEOUT, 1, 1)
+    assert [task.budget.simulations for task in planner.tasks] == [enough, 0]
 
 
 def test_a_replan_knows_what_the_last_plan_had_tried_from_where_that_had_got_to() -> None:
