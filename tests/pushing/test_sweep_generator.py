@@ -211,6 +211,13 @@ def test_a_sweep_up_to_the_margin_fits_on_both_sides() -> None:
     assert [push is not None for push in fitted] == [True, True]
 
 
+def test_however_far_from_the_corridor_the_lane_is_clamped_by_walls_alone() -> None:
+    push = Case(Shelf(0.4, 0.8), (0.3, 0.15), np.array([[0.2, 0.65]])).fitted(-1, 0.0)
+    assert push is not None
+    assert Deviation.LANE_CLAMPED not in push.deviations
+    assert push.sweep.lane == pytest.approx(0.65 + 0.009 + 0.03 + 0.005)
+
+
 def test_the_sweep_of_a_lone_object_in_the_middle() -> None:
     case = Case(Shelf(0.6, 0.6), (0.45, 0.3), np.array([[0.25, 0.32]]))
     (push, *_) = case.pushes
