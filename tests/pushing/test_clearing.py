@@ -25,8 +25,9 @@ from phframe.core import (
     Task,
     Transition,
 )
+from phframe.core.explored_tree import ROOT
 from phframe.planners.ooa import OOA
-from phframe.pushing import ClearingOptions, Deviation, PushDecision
+from phframe.pushing import ClearingOptions, Deviation, PushDecision, PushProblem, PushSearch
 from phframe.topology.single_linkage import SingleLinkage
 from tests.pushing.parts import ARM, RETRIEVE, rejections, scene_of
 
@@ -251,3 +252,16 @@ def test_pushes_that_take_nothing_out_of_the_corridor_are_given_up_after_a_while
     assert found.status is Status.FAILED
     assert len(found.actions) == 4, "the first one met fewer than there are objects in the scene"
     assert found.reason == "the last 3 pushes took nothing out of the corridor"
+
+
+def test_a_search_gives_up_a_node_where_pushes_took_nothing_out_and_where_there_are_enough() -> None:
+    task = task_of(BLOCKED, lambda state, action: Transition(moved(state, 1, (0.002, 0.0)), Motion(1.0)))
+    search, node, told = PushSearch(task, ClearingOptions(patience=2, max_actions=3)), ROOT, []
+    for _ in range(4):
+        problem = search.next_step(node)
+        assert isinstance(problem, PushProblem)
+        told.append(search.hopeless(node, problem))
+        proposals = search.pushing.pushes(problem, search.pushing.diagram(problem), 0.1)
+        node = search.try_push(node, *next(proposals))
+    given_up = "the last 2 pushes took nothing out of the corridor"
+    assert told == ["", "", given_up, "the corridor is not empty after 3 actions"]
