@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from phframe.core import FloatArray, Outline, Shelf
@@ -95,10 +95,23 @@ def test_the_fingertip_sweeps_no_nearer_to_the_target_than_1_2_radii(case: Case)
 def test_the_sweep_goes_in_its_direction_and_reaches_the_nearest_member(case: Case) -> None:
     for push in case.pushes:
         sweep = push.sweep
-        assert (sweep.end - sweep.lane) * sweep.direction > 0.0
+        assert (sweep.end - sweep.lane) * sweep.direction >= 1e-3
         assert case.local[:, 0].min() - 0.9 * RADIUS < sweep.depth <= case.local[:, 0].max() + 1e-12
         assert sweep.tilt in TILTS
         assert (Deviation.TILTED in push.deviations) is (sweep.tilt != 0.0)
+
+
+@pytest.mark.parametrize(
+    ("shelf", "target", "members", "direction", "degrees"),
+    [
+        (Shelf(0.548, 0.417), (0.293, 0.034), [[0.343, 0.049]], -1, 0.0),
+        (Shelf(0.461, 0.464), (0.378, 0.338), [[0.398, 0.218], [0.37, 0.314]], -1, 30.0),
+    ],
+)
+def test_a_sweep_that_would_end_where_it_begins_or_before_is_not_proposed(
+    shelf: Shelf, target: tuple[float, float], members: list[list[float]], direction: Direction, degrees: float
+) -> None:
+    assert Case(shelf, target, np.array(members)).fitted(direction, math.radians(degrees)) is None
 
 
 @often
@@ -173,6 +186,7 @@ def test_what_is_not_clamped_is_the_papers_sweep(case: Case) -> None:
 
 @often
 @given(anything)
+@example(Case(Shelf(0.58, 0.504), (0.293, 0.158), np.array([[0.054, 0.299], [0.408, 0.045], [0.358, 0.221]])))
 def test_at_most_two_are_proposed_in_each_direction_and_those_that_clear_come_first(case: Case) -> None:
     pushes = case.pushes
     clears = [push.clears for push in pushes]
