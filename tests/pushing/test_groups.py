@@ -51,6 +51,19 @@ def test_each_group_is_there_once_and_holds_what_is_closest(places: list[tuple[f
 
 @often
 @given(obstacles)
+def test_groups_are_made_at_usable_radii_the_threshold_and_where_all_are_one(places: list[tuple[float, float]]) -> None:
+    with bench(scene_of((0.5, 0.3), *places)) as made:
+        problem = problem_of(made)
+        if problem is None:
+            return
+        diagram, groups = made.pushing.diagram(problem), closest_groups(made.pushing, problem, "homology", "all")
+        all_one = max(diagram.finite_deaths.tolist(), default=0.0)
+        allowed = {*made.pushing.radii(diagram), made.pushing.threshold, all_one}
+        assert {group.radius for group in groups if group.radius} <= allowed
+
+
+@often
+@given(obstacles)
 def test_a_group_at_a_larger_radius_holds_those_at_smaller_ones(places: list[tuple[float, float]]) -> None:
     with bench(scene_of((0.5, 0.3), *places)) as made:
         problem = problem_of(made)
