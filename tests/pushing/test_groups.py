@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from phframe.core import Infeasible
@@ -51,6 +51,7 @@ def test_each_group_is_there_once_and_holds_what_is_closest(places: list[tuple[f
 
 @often
 @given(obstacles)
+@example([(0.1, 0.3), (0.162, 0.3), (0.237, 0.3), (0.307, 0.3)])  # closer than the threshold, and not alike
 def test_groups_are_made_at_usable_radii_the_threshold_and_where_all_are_one(places: list[tuple[float, float]]) -> None:
     with bench(scene_of((0.5, 0.3), *places)) as made:
         problem = problem_of(made)
