@@ -146,7 +146,8 @@ def test_the_figures_in_common_with_the_papers_method_are_handed_on() -> None:
     assert (options.pushing.half_width, options.pushing.withdrawal, options.pushing.reach_speed) == (0.1, 0.2, 0.1)
 
 
-def test_a_corridor_wider_than_two_metres_is_refused() -> None:
+@pytest.mark.parametrize("half_width", [0.0, 1.1])
+def test_a_corridor_of_no_width_or_wider_than_two_metres_is_refused(half_width: float) -> None:
     assert StraightPushOptions(half_width=1.0).half_width == 1.0
     with pytest.raises(InputError, match="half_width"):
-        StraightPushOptions.parse({"half_width": 1.5}, "mine")
+        StraightPushOptions.parse({"half_width": half_width}, "mine")
