@@ -1,0 +1,88 @@
+"""Scene files in which anything is wrong: a scene that all of phframe takes, or one line that says what is wrong where."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import TypeAdapter
+
+from phframe.backends.pymunk_.physics import PymunkPhysics
+from phframe.core import PhframeError, Scene
+from phframe.runtime.mounting import arm_in
+from phframe.runtime.scenes import find_scene
+from phframe.scenes import parse_scene, scene_to_yaml
+from phframe.scenes.mjcf import scene_to_mjcf
+from phframe.scenes.urdf import scene_to_urdf
+from phframe.scenes.writer import scene_content
+from tests.faults.files.spoiling import TEXTS, a_line, spoilt, spoilt_text
+from tests.trials import many, tried
+
+CORPUS = Path(__file__).parent / "corpus" / "scenes"
+SCENE = find_scene("vieira/simple-10")
+CONTENT = {**scene_content(SCENE), "mount": {"planar": [-0.5, 0.3, 0.0, 0.1]}}
+STORED = TypeAdapter(Scene)
+YAML = (
+    *("&a ", "*a", "!!str ", "!!float ", "!<x> ", "%YAML 1.1\n", "%TAG ! x:\n", "---\n", "...\n", "- ", "? ", ": ", "<<: *a"),
+    *("|\n", ">-\n", "'", '"', '"\\ud800"', '"\\u202e"', '"\\x1b[2J"', '"\\0"', "\\", "[", "]", "{", "}", ", ", "#", "\n", "\t"),
+    *(".nan", "-.inf", ".inf", "1e999", "1e-999", "-0", "0x7fffffffffffffff", "0o17", "1_000", "1:30", "0." + "3" * 40, "9" * 400),
+    *("~", "null", "yes", "[]", "{}", "'0.3'", "objects:", "shelf: {}", "phframe: 2", "mass: 5", "yaw: 700", "id: object_1"),
+    *("- {id: z, shape: cylinder, radius: 0.02, height: 0.1, position: [0.1, 0.1]}\n", "[" * 50, "- " * 50, "? " * 50),
+)
+PIECES = (*TEXTS, *YAML)
+
+
+def judged(text: str) -> Scene | str:
+    """The scene in a text, which all of phframe must then take; or what is wrong with it, a line."""
+    try:
+        scene = parse_scene(text, "spoilt.yaml")
+    except PhframeError as error:
+        told = a_line(error)
+        assert told.startswith("spoilt.yaml: ")
+        assert told.isprintable()
+        return told
+    _is_one(scene)
+    return scene
+
+
+def _is_one(scene: Scene) -> None:
+    start = scene.initial_state()
+    assert np.isfinite(start.poses).all()
+    assert parse_scene(scene_to_yaml(scene)) == scene
+    assert STORED.validate_python(json.loads(STORED.dump_json(scene))) == scene
+    assert 0.0 < scene.coverage <= 1.0 or math.isclose(scene.coverage, 1.0, rel_tol=0.1)
+    assert scene_to_mjcf(scene).isascii() or scene_to_urdf(scene)
+    physics = PymunkPhysics(scene, *arm_in(scene, "planar", {}), PymunkPhysics.options_type())
+    try:
+        held = physics.restore(start)
+        assert np.isfinite(held.poses).all()
+        assert (held.displacement(start) < 0.05).all()
+    finally:
+        physics.close()
+
+
+def as_yaml(content: Any) -> str:
+    """A document in YAML's flow style, which is JSON but for what is no number."""
+    text = json.dumps(content)
+    return re.sub(r"(?<![\w\"])(-?)(NaN|Infinity)(?![\w\"])", lambda found: found[1] + {"NaN": ".nan"}.get(found[2], ".inf"), text)
+
+
+@settings(max_examples=many(60), deadline=None)
+@given(spoilt(CONTENT))
+def test_whatever_a_scene_file_says_it_is_a_scene_or_one_line(content: Any) -> None:
+    tried("inputs: scene files that say something else")
+    judged(as_yaml(content))
+
+
+@settings(max_examples=many(60), deadline=None)
+@given(spoilt_text(scene_to_yaml(SCENE), PIECES))
+def test_whatever_is_written_in_a_scene_file_it_is_a_scene_or_one_line(text: str) -> None:
+    tried("inputs: scene files with a word or line changed")
+    judged(text)
