@@ -83,7 +83,7 @@ def load(path: str | Path) -> Plan | Episode:
     except OSError as error:
         raise InputError(f"cannot read {shown}: {error.strerror}") from None
     except (ValueError, RecursionError, OverflowError) as error:
-        raise InputError(f"{shown} is no JSON that phframe wrote: {error}") from None
+        raise InputError(f"{shown} is not JSON: {error}") from None
     decoded = _decoded(document, shown)
     if isinstance(decoded, Episode) and (problem := problem_of_episode(decoded)) is not None:
         raise InputError(f"{shown}: {problem}")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from pathlib import Path
 from typing import Any
 
@@ -23,19 +22,13 @@ from phframe.scenes.mjcf import scene_to_mjcf
 from phframe.scenes.urdf import scene_to_urdf
 from phframe.scenes.writer import scene_content
 from tests.faults.files.spoiling import TEXTS, a_line, spoilt, spoilt_text
+from tests.faults.files.yaml_text import YAML, as_yaml
 from tests.trials import many, tried
 
 CORPUS = Path(__file__).parent / "corpus" / "scenes"
 SCENE = find_scene("vieira/simple-10")
 CONTENT = {**scene_content(SCENE), "mount": {"planar": [-0.5, 0.3, 0.0, 0.1]}}
 STORED = TypeAdapter(Scene)
-YAML = (
-    *("&a ", "*a", "!!str ", "!!float ", "!<x> ", "%YAML 1.1\n", "%TAG ! x:\n", "---\n", "...\n", "- ", "? ", ": ", "<<: *a"),
-    *("|\n", ">-\n", "'", '"', '"\\ud800"', '"\\u202e"', '"\\x1b[2J"', '"\\0"', "\\", "[", "]", "{", "}", ", ", "#", "\n", "\t"),
-    *(".nan", "-.inf", ".inf", "1e999", "1e-999", "-0", "0x7fffffffffffffff", "0o17", "1_000", "1:30", "0." + "3" * 40, "9" * 400),
-    *("~", "null", "yes", "[]", "{}", "'0.3'", "objects:", "shelf: {}", "phframe: 2", "mass: 5", "yaw: 700", "id: object_1"),
-    *("- {id: z, shape: cylinder, radius: 0.02, height: 0.1, position: [0.1, 0.1]}\n", "[" * 50, "- " * 50, "? " * 50),
-)
 PIECES = (*TEXTS, *YAML)
 
 
@@ -66,12 +59,6 @@ def _is_one(scene: Scene) -> None:
         assert (held.displacement(start) < 0.05).all()
     finally:
         physics.close()
-
-
-def as_yaml(content: Any) -> str:
-    """A document in YAML's flow style, which is JSON but for what is no number."""
-    text = json.dumps(content)
-    return re.sub(r"(?<![\w\"])(-?)(NaN|Infinity)(?![\w\"])", lambda found: found[1] + {"NaN": ".nan"}.get(found[2], ".inf"), text)
 
 
 @settings(max_examples=many(60), deadline=None)
