@@ -116,16 +116,23 @@ def _shape(element: ET.Element, link: str, role: str) -> Solid | MeshFile | None
         return None
     match shape.tag:
         case "box":
-            return Solid("box", _vector(_attribute(shape, "size", owner), owner), at, rpy, part, name)
+            box = _sizes(owner, *_vector(_attribute(shape, "size", owner), owner))
+            return Solid("box", box, at, rpy, part, name)
         case "cylinder":
-            size = _number(shape, "radius", owner), _number(shape, "length", owner)
+            size = _sizes(owner, _number(shape, "radius", owner), _number(shape, "length", owner))
             return Solid("cylinder", size, at, rpy, part, name)
         case "sphere":
-            return Solid("sphere", (_number(shape, "radius", owner),), at, rpy, part, name)
+            return Solid("sphere", _sizes(owner, _number(shape, "radius", owner)), at, rpy, part, name)
         case "mesh":
             scale = _vector(shape.get("scale", "1 1 1"), owner)
             return MeshFile(_attribute(shape, "filename", owner), scale, at, rpy)
     raise ArmError(f"{owner} in the URDF is a {shown(shape.tag)}; there is: box, cylinder, sphere, mesh")
+
+
+def _sizes(owner: str, *sizes: float) -> tuple[float, ...]:
+    if min(sizes) <= 0.0:
+        raise ArmError(f"{owner} of the URDF has a size of {min(sizes):g} m; one above 0 is needed")
+    return sizes
 
 
 def _names(element: ET.Element, link: str, role: str) -> tuple[str, str]:

@@ -14,6 +14,7 @@ from phframe.urdf.driven import driven_robot
 from phframe.urdf.model import Robot
 from phframe.urdf.outlines import gripper_outlines
 from phframe.urdf.reader import read_robot
+from phframe.urdf.solids import Solid
 from phframe.urdf.writer import robot_urdf
 from tests.faults.files.spoiling import TEXTS, a_line, spoilt_text
 from tests.faults.files.spoiling_xml import VALUES, spoilt_xml
@@ -43,7 +44,9 @@ def judged(text: str) -> Robot | str:
     except ArmError as error:
         a_line(error)
     else:
-        assert all(np.isfinite(each.vertices).all() for each in outlines)
+        assert all(each.vertices.shape >= (3, 2) and np.isfinite(each.vertices).all() for each in outlines)
+    for link in robot.links.values():
+        assert all(min(each.size) > 0.0 for each in link.collision_geometry if isinstance(each, Solid))
     return robot
 
 
