@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import fields
 
-from phframe.core import Cost, Episode, Motion, Plan, State
+from phframe.core import Cost, Episode, Plan, State, Step
 from phframe.runtime.border import problem_of_action, problem_of_motion, problem_of_state, problems_of_plan
 
 
@@ -21,7 +21,7 @@ def _problems(episode: Episode) -> Iterator[str]:
     for number, plan in enumerate(episode.plans):
         yield from (f"plans.{number}: {problem}" for problem in _of_plan(plan, episode))
     for number, step in enumerate(episode.steps):
-        yield from (f"steps.{number}: {problem}" for problem in _of_step(number, episode))
+        yield from (f"steps.{number}: {problem}" for problem in _of_step(step, episode))
     for number, rejection in enumerate(episode.rejections):
         if not 0 <= rejection.plan < len(episode.plans):
             yield f"rejections.{number}: there is no plan {rejection.plan}"
@@ -39,15 +39,13 @@ def _of_cost(cost: Cost) -> Iterator[str]:
             yield f"the cost {each.name} is {figure!r:.60}"
 
 
-def _of_step(number: int, episode: Episode) -> Iterator[str]:
-    step = episode.steps[number]
+def _of_step(step: Step, episode: Episode) -> Iterator[str]:
     if not 0 <= step.plan < len(episode.plans):
         yield f"there is no plan {step.plan}"
     states: dict[str, State | None] = {name: getattr(step, name) for name in ("before", "after", "expected", "seen")}
     for name, state in states.items():
         if state is not None and (problem := problem_of_state(state, episode.scene)) is not None:
             yield f"{name}: {problem}"
-    motion: Motion = step.motion
-    for problem in (problem_of_action(step.action, episode.scene), problem_of_motion(motion)):
+    for problem in (problem_of_action(step.action, episode.scene), problem_of_motion(step.motion)):
         if problem is not None:
             yield problem

@@ -150,7 +150,9 @@ def _color(material: ET.Element) -> Color | None:
 def _joint(element: ET.Element) -> RobotJoint:
     name, kind = _name(element, "a joint"), element.get("type", "")
     if kind not in KINDS:
-        raise ArmError(f"joint {shown(name)} of the URDF is {shown(kind)}; an arm has joints that are {', '.join(KINDS)}")
+        raise ArmError(
+            f"joint {shown(name)} of the URDF is {shown(kind)}; an arm has joints that are {', '.join(KINDS)}"
+        )
     owner, (at, rpy) = f"joint {shown(name)}", _origin(element)
     parent, child = (_attribute(element.find(tag), "link", owner) for tag in ("parent", "child"))
     if kind == "fixed":

@@ -27,9 +27,46 @@ from tests.trials import many, tried
 DISTRIBUTIONS = st.sampled_from(("lab", "lab-two", "rival", "x-1"))
 NAMES = ("mine", "yours", "phia", "ooa", "a-1")
 ODD_NAMES = (
-    *("", " ", ":", "::", "lab:", ":mine", "lab:mine:mine", "LAB:mine", "lab_two:mine", "phframe:phia", "nobody:mine", "Phia"),
-    *("phia[", "phia[]", "phia[=]", "phia[sweeps=paper]", "mine[tries=x]", "mine[tries=5]", "\u202e", "\ud800", "a" * 5000, "a\nb"),
-    *("..", "/", "~", "\0", ".py", ".py:", "x.py:", ":x.py", "a.py:Straight:Straight", "a.py:__name__", "a.py:Choice", "nowhere.py:A"),
+    *(
+        "",
+        " ",
+        ":",
+        "::",
+        "lab:",
+        ":mine",
+        "lab:mine:mine",
+        "LAB:mine",
+        "lab_two:mine",
+        "phframe:phia",
+        "nobody:mine",
+        "Phia",
+    ),
+    *(
+        "phia[",
+        "phia[]",
+        "phia[=]",
+        "phia[sweeps=paper]",
+        "mine[tries=x]",
+        "mine[tries=5]",
+        "\u202e",
+        "\ud800",
+        "a" * 5000,
+        "a\nb",
+    ),
+    *(
+        "..",
+        "/",
+        "~",
+        "\0",
+        ".py",
+        ".py:",
+        "x.py:",
+        ":x.py",
+        "a.py:Straight:Straight",
+        "a.py:__name__",
+        "a.py:Choice",
+        "nowhere.py:A",
+    ),
 )
 FILES = st.sampled_from(("a.py", "b.py", "deep/a.py"))
 SERIAL = count()
@@ -77,7 +114,9 @@ class RegistryInAnyOrder(RuleBasedStateMachine):
     def uninstall(self, distribution: str) -> None:
         self.offers.pop(distribution, None)
 
-    @rule(distribution=DISTRIBUTIONS, how=st.sampled_from(("raise SystemExit(0)", "def f(:", "1/0", "Straight = 5", "\0")))
+    @rule(
+        distribution=DISTRIBUTIONS, how=st.sampled_from(("raise SystemExit(0)", "def f(:", "1/0", "Straight = 5", "\0"))
+    )
     def break_it(self, distribution: str, how: str) -> None:
         if distribution in self.offers:
             self._write(self.offers[distribution][0], how, sound=False)
@@ -213,5 +252,5 @@ def _is_ours(module: str) -> bool:
 
 def test_the_registry_in_any_order() -> None:
     run_state_machine_as_test(
-        RegistryInAnyOrder, settings=settings(max_examples=many(8), stateful_step_count=25, deadline=None)
+        RegistryInAnyOrder, settings=settings(max_examples=many(5), stateful_step_count=25, deadline=None)
     )

@@ -11,10 +11,68 @@ from hypothesis import strategies as st
 
 Draw = Callable[[st.SearchStrategy[Any]], Any]
 VALUES = (
-    *("nan", "inf", "-1", "0", "1", "2", "1e300", "-1e300", "1e-300", "1e-9", "1e9", "99999999999999999999", "0x10", "1_0", "٣", "1,5"),
-    *("", " ", "x", "1 2", "0 0 0", "1 0 0", "0 0 0 0", "1 2 3 4 5 6 7", "nan nan nan", "1e200 1e200 1e200", "0.1 0.1 0.1", "-1 -1 -1"),
-    *("true", "false", "box", "sphere", "cylinder", "mesh", "plane", "prismatic", "revolute", "fixed", "continuous", "floating", "world"),
-    *("\u202e", "\x85", "a" * 101, "a" * 5000, "é", "😀", "a/b", "../../x", "package://x/y.stl", "/dev/zero", "~", "%s", "<&>\"'"),
+    *(
+        "nan",
+        "inf",
+        "-1",
+        "0",
+        "1",
+        "2",
+        "1e300",
+        "-1e300",
+        "1e-300",
+        "1e-9",
+        "1e9",
+        "99999999999999999999",
+        "0x10",
+        "1_0",
+        "٣",
+        "1,5",
+    ),
+    *(
+        "",
+        " ",
+        "x",
+        "1 2",
+        "0 0 0",
+        "1 0 0",
+        "0 0 0 0",
+        "1 2 3 4 5 6 7",
+        "nan nan nan",
+        "1e200 1e200 1e200",
+        "0.1 0.1 0.1",
+        "-1 -1 -1",
+    ),
+    *(
+        "true",
+        "false",
+        "box",
+        "sphere",
+        "cylinder",
+        "mesh",
+        "plane",
+        "prismatic",
+        "revolute",
+        "fixed",
+        "continuous",
+        "floating",
+        "world",
+    ),
+    *(
+        "\u202e",
+        "\x85",
+        "a" * 101,
+        "a" * 5000,
+        "é",
+        "😀",
+        "a/b",
+        "../../x",
+        "package://x/y.stl",
+        "/dev/zero",
+        "~",
+        "%s",
+        "<&>\"'",
+    ),
 )
 """What is put in the place of an attribute's value."""
 
@@ -42,13 +100,14 @@ def _number(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at: int) 
         for key, value in element.attrib.items():
             if words := value.split():
                 words[draw(st.integers(0, len(words) - 1))] = draw(st.sampled_from(VALUES))
-                return element.set(key, " ".join(words))
+                element.set(key, " ".join(words))
+                return
 
 
 def _value_of_another(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at: int) -> None:
     values = [value for each in elements for value in each.attrib.values()]
-    for key in elements[at].attrib:
-        return elements[at].set(key, draw(st.sampled_from(values)))
+    if key := next(iter(elements[at].attrib), ""):
+        elements[at].set(key, draw(st.sampled_from(values)))
 
 
 def _no_attribute(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at: int) -> None:
@@ -65,16 +124,18 @@ def _renamed(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at: int)
     elements[at].tag = draw(st.sampled_from(sorted({each.tag for each in elements} | {"x"})))
 
 
+def _parent(elements: Sequence[ET.Element], at: int) -> ET.Element | None:
+    return next((each for each in elements if elements[at] in list(each)), None)
+
+
 def _gone(_: Draw, __: ET.Element, elements: Sequence[ET.Element], at: int) -> None:
-    for parent in elements:
-        if elements[at] in list(parent):
-            return parent.remove(elements[at])
+    if (parent := _parent(elements, at)) is not None:
+        parent.remove(elements[at])
 
 
 def _doubled(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at: int) -> None:
-    for parent in elements:
-        if elements[at] in list(parent):
-            return parent.extend([copy.deepcopy(elements[at]) for _ in range(draw(st.sampled_from((1, 1, 20))))])
+    if (parent := _parent(elements, at)) is not None:
+        parent.extend([copy.deepcopy(elements[at]) for _ in range(draw(st.sampled_from((1, 1, 20))))])
 
 
 def _moved(draw: Draw, root: ET.Element, elements: Sequence[ET.Element], at: int) -> None:

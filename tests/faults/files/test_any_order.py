@@ -21,8 +21,15 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, 
 
 from phframe.cli.run_directory import RunDirectory
 from phframe.core import InputError
-from phframe.core.files import NewFile, check_folder_writable, check_writable, new_folder, write_file, write_file_by
-from phframe.core.files import write_folder
+from phframe.core.files import (
+    NewFile,
+    check_folder_writable,
+    check_writable,
+    new_folder,
+    write_file,
+    write_file_by,
+    write_folder,
+)
 from tests.faults.files.spoiling import a_line
 from tests.trials import many, tried
 
@@ -160,14 +167,20 @@ class FilesInAnyOrder(RuleBasedStateMachine):
             before.pop(part, None)
             assert tree(self.place) == before
 
-    @rule(name=NAMES, files=st.dictionaries(st.sampled_from(("a", "b", "e/a")), CONTENTS, max_size=3), overwrite=st.booleans())
+    @rule(
+        name=NAMES,
+        files=st.dictionaries(st.sampled_from(("a", "b", "e/a")), CONTENTS, max_size=3),
+        overwrite=st.booleans(),
+    )
     def write_a_folder(self, name: str, files: dict[str, str], overwrite: bool) -> None:
         path = self.place / name
         possible = self._asked(lambda: check_folder_writable(path, overwrite=overwrite))
         before, was = tree(self.place), path.exists()
         if self._asked(lambda: write_folder(path, files, overwrite=overwrite)):
             assert possible
-            assert {each: (path / each).read_text() for each in files if not (path / each).is_fifo()}.items() <= files.items()
+            assert {
+                each: (path / each).read_text() for each in files if not (path / each).is_fifo()
+            }.items() <= files.items()
         elif was:
             self._only_folders_are_new(before)
         else:
@@ -184,7 +197,7 @@ class FilesInAnyOrder(RuleBasedStateMachine):
     @invariant()
     def nothing_half_is_left(self) -> None:
         known = {file.part for file, _ in self.open}
-        assert {path for path in self.place.rglob("*.part")} <= known
+        assert set(self.place.rglob("*.part")) <= known
 
     def _asked(self, do: Callable[[], object]) -> bool:
         """Whether it was done; what is not done is told in a line."""
@@ -237,6 +250,7 @@ class RunsInAnyOrder(RuleBasedStateMachine):
         os.chdir(self.place)
         self.stack.callback(os.chdir, before)
         self.running: dict[Path, RunDirectory] = {}
+        self.inodes: dict[Path, int] = {}
 
     def teardown(self) -> None:
         self.stack.close()
@@ -259,12 +273,9 @@ class RunsInAnyOrder(RuleBasedStateMachine):
         assert made == path
         assert list(path.iterdir()) == []
         if used:
-            assert os.stat(path).st_ino != self.inode(path), "two runs have one directory"
+            assert path.stat().st_ino != self.inodes[path], "two runs have one directory"
         self.running[path] = run
-        self.inodes = {**getattr(self, "inodes", {}), path: path.stat().st_ino}
-
-    def inode(self, path: Path) -> int:
-        return self.inodes[path]
+        self.inodes[path] = path.stat().st_ino
 
     @rule()
     def begin_somewhere(self) -> None:
@@ -297,6 +308,4 @@ class RunsInAnyOrder(RuleBasedStateMachine):
 
 @pytest.mark.parametrize("machine", [FilesInAnyOrder, RunsInAnyOrder])
 def test_files_in_any_order(machine: type[RuleBasedStateMachine]) -> None:
-    run_state_machine_as_test(
-        machine, settings=settings(max_examples=many(20), stateful_step_count=25, deadline=None)
-    )
+    run_state_machine_as_test(machine, settings=settings(max_examples=many(20), stateful_step_count=25, deadline=None))

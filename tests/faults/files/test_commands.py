@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +33,18 @@ def _with_spec(spec: Any) -> Any:
 
 
 PARTS = ("planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "goal", "scene")
-NAMES = ("./x.py:Cls", "x.py:Cls", "x.py", "x:Cls", "phframe:phia", "phia[sweeps=paper]", "phia[", "./x.py:Cls[a=1]", "", "fast")
+NAMES = (
+    "./x.py:Cls",
+    "x.py:Cls",
+    "x.py",
+    "x:Cls",
+    "phframe:phia",
+    "phia[sweeps=paper]",
+    "phia[",
+    "./x.py:Cls[a=1]",
+    "",
+    "fast",
+)
 SPECS = spoilt(CONTENT["spec"]) | st.builds(
     lambda part, name: {**CONTENT["spec"], part: name}, st.sampled_from(PARTS), st.sampled_from(NAMES)
 )

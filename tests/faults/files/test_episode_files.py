@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import json
+import operator
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -21,6 +23,7 @@ from phframe.runtime.summary import summarize
 from tests.faults.files.spoiling import TEXTS, a_line, spoilt, spoilt_text
 from tests.trials import many, tried
 
+CORPUS = Path(__file__).parent / "corpus" / "episodes"
 ARM = PlanarArm(PlanarArmOptions())
 EPISODE = solve("vieira/simple-10", seed=3)
 
@@ -38,7 +41,21 @@ def _document(content: Any) -> Any:
 CONTENT = json.loads(json.dumps(content_of(EPISODE)))
 TEXT = json.dumps(_document(CONTENT), indent=0)
 DOCUMENTS = spoilt(CONTENT).map(_document) | spoilt(CONTENT).map(_document) | spoilt(_document(CONTENT))
-PIECES = (*map(json.dumps, TEXTS), "NaN", "-Infinity", "1e999", "9" * 5000, "{", "}", "[", "]", ",", ":", "[" * 3000, '"./x.py:Cls"')
+PIECES = (
+    *map(json.dumps, TEXTS),
+    "NaN",
+    "-Infinity",
+    "1e999",
+    "9" * 5000,
+    "{",
+    "}",
+    "[",
+    "]",
+    ",",
+    ":",
+    "[" * 3000,
+    '"./x.py:Cls"',
+)
 
 
 def judged(text: str, path: Path) -> Plan | Episode | str:
@@ -72,7 +89,8 @@ def _is_one(episode: Episode, path: Path) -> None:
     StoredAdvice(episode)
     try:
         driven = joint_trajectories(episode, ARM)
-        assert as_json(episode, driven) and as_csv(driven)
+        assert as_json(episode, driven)
+        assert as_csv(driven)
     except PhframeError as error:
         a_line(error)
 
@@ -105,3 +123,23 @@ def test_whatever_an_episode_says_it_is_an_episode_or_one_line(path: Path, conte
 def test_whatever_is_written_in_an_episode_it_is_an_episode_or_one_line(path: Path, text: str) -> None:
     tried("inputs: episodes with a word changed")
     judged(text, path)
+
+
+@pytest.mark.parametrize("kept", sorted(CORPUS.glob("*.json")), ids=lambda kept: kept.stem)
+def test_episodes_that_went_wrong_once_are_one_line(kept: Path, path: Path) -> None:
+    change, content = json.loads(kept.read_text()), json.loads(json.dumps(CONTENT))
+    *way, last = change["at"]
+    functools.reduce(operator.getitem, way, content)[last] = change["put"]
+    assert isinstance(judged(json.dumps(_document(content)), path), str)
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="what has no end")
+def test_a_file_without_end_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("phframe.runtime.files.MOST_BYTES", 1 << 20)
+    with pytest.raises(InputError, match="/dev/zero is larger than 1 MB"):
+        load("/dev/zero")
+
+
+def test_no_shape_of_a_text_is_an_episode(path: Path) -> None:
+    for text in ("[" * 100_000, "9" * 5000, "\ufeff" + TEXT, TEXT[:-1], TEXT + TEXT, '{"a":' * 2000, "NaN", "null", ""):
+        assert isinstance(judged(text, path), str)

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from phframe.backends.pymunk_.physics import PymunkPhysics
@@ -73,3 +72,8 @@ def test_whatever_a_scene_file_says_it_is_a_scene_or_one_line(content: Any) -> N
 def test_whatever_is_written_in_a_scene_file_it_is_a_scene_or_one_line(text: str) -> None:
     tried("inputs: scene files with a word or line changed")
     judged(text)
+
+
+@pytest.mark.parametrize("path", sorted(CORPUS.glob("*.yaml")), ids=lambda path: path.stem)
+def test_scene_files_that_went_wrong_once_are_one_line(path: Path) -> None:
+    assert isinstance(judged(path.read_text(encoding="utf-8")), str)

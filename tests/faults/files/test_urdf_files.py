@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 
 import phframe.arms
@@ -24,7 +26,21 @@ FOLDER = Path(phframe.arms.__file__).parent / "example"
 SEEN = '<visual><geometry><mesh filename="package://x/y.stl" scale="1 1 1"/></geometry></visual></link>'
 TEXT = (FOLDER / "robot.urdf").read_text(encoding="utf-8").replace("</link>", SEEN, 1)
 DESCRIPTION, _ = read_description(FOLDER / "arm.yaml")
-PIECES = (*TEXTS, *VALUES, "<", ">", "/>", "</link>", "<!--", "]]>", "<!DOCTYPE x>", "&x;", "&#0;", "&#x110000;", '<link name="x"/>')
+PIECES = (
+    *TEXTS,
+    *VALUES,
+    "<",
+    ">",
+    "/>",
+    "</link>",
+    "<!--",
+    "]]>",
+    "<!DOCTYPE x>",
+    "&x;",
+    "&#0;",
+    "&#x110000;",
+    '<link name="x"/>',
+)
 
 
 def judged(text: str) -> Robot | str:
@@ -62,3 +78,14 @@ def test_whatever_a_urdf_is_made_of_it_is_a_robot_or_one_line(text: str) -> None
 def test_whatever_is_written_in_a_urdf_it_is_a_robot_or_one_line(text: str) -> None:
     tried("inputs: URDFs with a word or line changed")
     judged(text)
+
+
+def test_half_of_a_character_is_one_line() -> None:
+    assert isinstance(judged('<robot name="\ud800"/>'), str)
+
+
+def test_a_finger_that_is_a_point_is_one_line() -> None:
+    finger = TEXT.index("<collision", TEXT.index('<link name="left_finger">'))
+    far = TEXT[:finger] + re.sub(r'(?<=xyz=")[^"]*', "1e19 1e19 0", TEXT[finger:], count=1)
+    with pytest.raises(ArmError, match="has no extent seen from above"):
+        gripper_outlines(driven_robot(DESCRIPTION, read_robot(far)), ArmModel.tip_link, DESCRIPTION.fingers)
