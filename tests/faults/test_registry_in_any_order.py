@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import importlib
 import os
+import shutil
 import sys
 import tempfile
 from collections import Counter
 from contextlib import ExitStack, suppress
+from importlib import metadata
 from itertools import count, product
 from pathlib import Path
 
@@ -18,10 +20,10 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule, run_stat
 
 from phframe.core import PhframeError, PluginError, UnknownNameError
 from phframe.core.stored_name import StoredName
-from phframe.registry import Broken, Catalogue, Entry, Extension, Kind, builtins, create, load, look_up
+from phframe.registry import Broken, Catalogue, Entry, Extension, Kind, builtins, create, discover, load, look_up
 from phframe.registry.catalogue import named
 from tests.faults.files.spoiling import a_line
-from tests.registry.conftest import STRAIGHT
+from tests.registry.conftest import HEADER, STRAIGHT, offering
 from tests.trials import many, tried
 
 DISTRIBUTIONS = st.sampled_from(("lab", "lab-two", "rival", "x-1"))
@@ -246,6 +248,59 @@ class RegistryInAnyOrder(RuleBasedStateMachine):
             assert self.found().entry(Kind.PLANNER, each.qualified_name) == each
 
 
+class DiscoveryInAnyOrder(RegistryInAnyOrder):
+    """The same with distributions that are really there, and are asked in processes of their own."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.broken: set[str] = set()
+
+    def found(self) -> Catalogue:
+        return discover(metadata.distributions(path=[str(self.site)]))
+
+    @rule(distribution=DISTRIBUTIONS, names=st.sets(st.sampled_from(NAMES), min_size=1), tries=st.integers(1, 99))
+    def install(self, distribution: str, names: set[str], tries: int) -> None:
+        self.uninstall(distribution)
+        module = f"any_order_{next(SERIAL)}"
+        self.offers[distribution] = module, dict.fromkeys(sorted(names), tries)
+        source = HEADER + offering(*sorted(names)).replace("MODULE", module).replace("= 3", f"= {tries}")
+        self._write(module, source, sound=True)
+        info = self._info(distribution)
+        info.mkdir()
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {distribution}\nVersion: 1.0\n")
+        (info / "entry_points.txt").write_text(f"[phframe]\nplugin = {module}\n")
+
+    @rule(distribution=DISTRIBUTIONS)
+    def uninstall(self, distribution: str) -> None:
+        shutil.rmtree(self._info(distribution), ignore_errors=True)
+        self.broken.discard(distribution)
+        super().uninstall(distribution)
+
+    @rule(distribution=DISTRIBUTIONS, how=st.sampled_from(("raise SystemExit(0)", "def f(:", "1/0", "\0")))
+    def break_it(self, distribution: str, how: str) -> None:
+        super().break_it(distribution, how)
+        self._no_longer(distribution)
+
+    @rule(distribution=DISTRIBUTIONS)
+    def lose_its_files(self, distribution: str) -> None:
+        super().lose_its_files(distribution)
+        self._no_longer(distribution)
+
+    def _no_longer(self, distribution: str) -> None:
+        """What is broken offers nothing, and is told."""
+        if self.offers.pop(distribution, None):
+            self.broken.add(distribution)
+
+    def _info(self, distribution: str) -> Path:
+        return self.site / f"{distribution.replace('-', '_')}-1.0.dist-info"
+
+    @invariant()
+    def what_is_broken_is_told(self) -> None:
+        found = self.found()
+        assert {each.distribution for each in found.broken} == self.broken
+        assert all(a_line(PluginError(str(each))) for each in found.broken)
+
+
 def _is_ours(module: str) -> bool:
     return module.startswith(("any_order_", "phframe_file_"))
 
@@ -253,4 +308,11 @@ def _is_ours(module: str) -> bool:
 def test_the_registry_in_any_order() -> None:
     run_state_machine_as_test(
         RegistryInAnyOrder, settings=settings(max_examples=many(5), stateful_step_count=25, deadline=None)
+    )
+
+
+@pytest.mark.slow
+def test_discovery_in_any_order() -> None:
+    run_state_machine_as_test(
+        DiscoveryInAnyOrder, settings=settings(max_examples=many(2), stateful_step_count=12, deadline=None)
     )

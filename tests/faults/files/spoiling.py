@@ -12,85 +12,15 @@ from hypothesis import strategies as st
 Draw = Callable[[st.SearchStrategy[Any]], Any]
 
 TEXTS = (
-    *(
-        "",
-        " ",
-        "x",
-        "nan",
-        "inf",
-        "-inf",
-        "1e5",
-        "true",
-        "null",
-        "0",
-        "-1",
-        "a b",
-        "a,b",
-        "a:b",
-        "a/b",
-        "..",
-        "~",
-        "cylinder",
-    ),
-    *(
-        "\n",
-        "a\nb",
-        "\t",
-        "\x00",
-        "\x1b[2J",
-        "\x7f",
-        "\x85",
-        "\u2028",
-        "\u202e",
-        "\u200b",
-        "\ufeff",
-        "\ud800",
-        "\udfff\ud800",
-    ),
-    *(
-        "é",
-        "e\u0301",
-        "日本",
-        "😀",
-        "٣",
-        "%s",
-        "{0}",
-        "$HOME",
-        "<b>&amp;",
-        "]]>",
-        "--",
-        "'",
-        '"',
-        "\\",
-        "#",
-        "- ",
-        "a" * 101,
-    ),
-    *("a" * 5000, "__class__", "./x.py:Cls", "x.py:Cls", "os:system", "!!python/name:os.system", "phia[a=", "-" * 40),
-)
+    "", " ", "x", "nan", "inf", "-inf", "1e5", "true", "null", "0", "-1", "a b", "a,b", "a:b", "a/b", "..", "~", "cylinder",
+    "\n", "a\nb", "\t", "\x00", "\x1b[2J", "\x7f", "\x85", "\u2028", "\u202e", "\u200b", "\ufeff", "\ud800", "\udfff\ud800",
+    "é", "e\u0301", "日本", "😀", "٣", "%s", "{0}", "$HOME", "<b>&amp;", "]]>", "--", "'", '"', "\\", "#", "- ", "a" * 101,
+    "a" * 5000, "__class__", "./x.py:Cls", "x.py:Cls", "os:system", "!!python/name:os.system", "phia[a=", "-" * 40,
+)  # fmt: skip
 NUMBERS = (
-    *(
-        0,
-        -0.0,
-        1,
-        -1,
-        2,
-        7,
-        1000,
-        1.5,
-        0.03,
-        1e-3,
-        1e-9,
-        5e-324,
-        -1e-12,
-        1e5,
-        1e20,
-        1e300,
-        1.7976931348623157e308,
-        -1e308,
-    ),
-    *(2**31, 2**53 + 1, 2**63, 2**64, -(2**63), 10**400, float("nan"), float("inf"), float("-inf")),
-)
+    0, -0.0, 1, -1, 2, 7, 1000, 1.5, 0.03, 1e-3, 1e-9, 5e-324, -1e-12, 1e5, 1e20, 1e300, 1.7976931348623157e308, -1e308,
+    2**31, 2**53 + 1, 2**63, 2**64, -(2**63), 10**400, float("nan"), float("inf"), float("-inf"),
+)  # fmt: skip
 ODDITIES: tuple[Any, ...] = (
     None,
     True,
@@ -123,7 +53,8 @@ def spoilt(draw: Draw, document: Any) -> Any:
 
 def _place(draw: Draw, root: list[Any]) -> tuple[Any, Any]:
     """Somewhere in a document: found from its root on, so that what there is much of is not all that is picked."""
-    parent, key = root, 0
+    parent: Any = root
+    key: Any = 0
     while isinstance(value := parent[key], dict | list) and value and draw(st.integers(0, 7)):
         parent, key = value, draw(st.sampled_from(list(value) if isinstance(value, dict) else range(len(value))))
     return parent, key
@@ -221,16 +152,20 @@ def _span(draw: Draw, text: str, word: str) -> tuple[int, int]:
     return found.span() if found else (at, at)
 
 
+def _piece(draw: Draw, pieces: tuple[str, ...]) -> str:
+    return str(draw(st.sampled_from(pieces)))
+
+
 def _replaced(draw: Draw, text: str, start: int, end: int, pieces: tuple[str, ...]) -> str:
-    return text[:start] + draw(st.sampled_from(pieces)) + text[end:]
+    return text[:start] + _piece(draw, pieces) + text[end:]
 
 
 def _before(draw: Draw, text: str, start: int, _: int, pieces: tuple[str, ...]) -> str:
-    return text[:start] + draw(st.sampled_from(pieces)) + text[start:]
+    return text[:start] + _piece(draw, pieces) + text[start:]
 
 
 def _after(draw: Draw, text: str, _: int, end: int, pieces: tuple[str, ...]) -> str:
-    return text[:end] + draw(st.sampled_from(pieces)) + text[end:]
+    return text[:end] + _piece(draw, pieces) + text[end:]
 
 
 def _cut_out(_: Draw, text: str, start: int, end: int, __: tuple[str, ...]) -> str:
@@ -246,7 +181,7 @@ def _cut_off(_: Draw, text: str, start: int, __: int, ___: tuple[str, ...]) -> s
 
 
 def _letter(draw: Draw, text: str, start: int, _: int, __: tuple[str, ...]) -> str:
-    return text[:start] + draw(st.characters()) + text[start + 1 :]
+    return f"{text[:start]}{draw(st.characters())}{text[start + 1 :]}"
 
 
 CUTS = (_replaced, _replaced, _replaced, _replaced, _before, _after, _cut_out, _again, _cut_off, _letter)

@@ -77,7 +77,8 @@ def _is_one(episode: Episode, path: Path) -> None:
         assert problem_of_state(state, episode.scene) is None
     for motion in _motions(episode):
         assert problem_of_motion(motion) is None
-    assert all(0 <= each.plan < len(episode.plans) for each in (*episode.steps, *episode.rejections))
+    named = {*(step.plan for step in episode.steps), *(rejection.plan for rejection in episode.rejections)}
+    assert named <= set(range(len(episode.plans)))
     json.dumps(summarize(episode), allow_nan=False).encode()
     path.write_text(json.dumps(_document(content_of(episode))))  # without ``save``, which waits for the disk
     assert load(path) == episode
