@@ -101,7 +101,7 @@ def _from_elsewhere(draw: Draw, root: list[Any], parent: Any, key: Any) -> None:
     parent[key] = copy.deepcopy(other[there])
 
 
-def _wrapped(draw: Draw, _: list[Any], parent: Any, key: Any) -> None:
+def _wrapped(draw: Draw, __: list[Any], parent: Any, key: Any) -> None:
     for _ in range(draw(st.sampled_from((1, 2, DEEP)))):
         parent[key] = draw(st.sampled_from(([parent[key]], {"x": parent[key]})))
 
