@@ -15,7 +15,7 @@ from phframe.core import (
     NOBODY,
     Action,
     Advisor,
-    ArmShape,
+    ArmModel,
     ArmState,
     Budget,
     ExploredTree,
@@ -100,7 +100,7 @@ class PlanningWorld(World):
         rng: np.random.Generator,
         *,
         goal: Goal[Any],
-        arm: ArmShape | None = None,
+        arm: ArmModel[Any] | None = None,
         budget: Budget = Budget(),  # noqa: B008 - immutable
         rejected: tuple[Rejection, ...] = (),
         earlier: ExploredTree | None = None,
@@ -127,12 +127,14 @@ class PlanningWorld(World):
             object_reach: Whether that arm can have an object grasped where it stands; None: not known.
             advisor: Whom the planner may ask.
         """
+        arm = self.arm if arm is None else arm
         at_once = isinstance(self.physics, SupportsManySimulations)
         return Task(
             scene=self.scene,
             start=start,
             goal=goal,
-            arm=self.arm.shape if arm is None else arm,
+            arm=arm.shape,
+            force_limit=arm.force_limit,
             topology=topology,
             apply=self.apply,
             apply_many=self.apply_many if self._workers > 1 or at_once else None,
