@@ -107,7 +107,7 @@ def _number(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at: int) 
 def _value_of_another(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at: int) -> None:
     values = [value for each in elements for value in each.attrib.values()]
     if key := next(iter(elements[at].attrib), ""):
-        elements[at].set(key, draw(st.sampled_from(values)))
+        elements[at].set(key, str(draw(st.sampled_from(values))))
 
 
 def _no_attribute(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at: int) -> None:
@@ -116,7 +116,7 @@ def _no_attribute(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at:
 
 
 def _another_attribute(draw: Draw, _: ET.Element, elements: Sequence[ET.Element], at: int) -> None:
-    keys = sorted({key for each in elements for key in each.attrib})
+    keys = sorted({key for each in elements for key in each.attrib} | {"name"})
     elements[at].set(draw(st.sampled_from(keys)), draw(st.sampled_from(VALUES)))
 
 

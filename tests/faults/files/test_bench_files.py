@@ -6,6 +6,7 @@ import json
 import math
 from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -77,6 +78,19 @@ def judged(row: Any) -> Any:
 def test_whatever_a_row_says_it_is_a_result_or_one_line(row: Any) -> None:
     tried("inputs: rows of a bench that say something else")
     judged(row)
+
+
+@pytest.mark.parametrize(
+    ("column", "held"),
+    [("largest_prediction_error", "nan"), ("planning_time", "nan"), ("spec", '"\\ud800"'), ("seed", b"x")],
+)
+def test_rows_that_went_wrong_once_are_one_line(column: str, held: object) -> None:
+    assert isinstance(judged({**ROW, column: held}), str)
+
+
+def test_settings_with_a_limit_that_is_no_number_are_one_line() -> None:
+    with pytest.raises(InputError, match="no settings of a bench"):
+        BenchSettings.from_json(SETTINGS.to_json().replace("30.0", "Infinity"))
 
 
 @settings(max_examples=many(30), deadline=None)
