@@ -10,7 +10,7 @@ from phframe.core.arm import FINGER_ROOM, GRAZING, ArmShape
 from phframe.core.errors import BudgetExceededError, PluginError, SimulationDivergedError
 from phframe.core.options import Options
 from phframe.core.plan import Plan
-from phframe.core.scene import Scene, drag_on_board
+from phframe.core.scene import Scene
 from phframe.core.status import Status
 from phframe.core.task import Task
 
@@ -39,8 +39,8 @@ class Planner(ABC, Generic[OptionsT]):
     def plan(self, task: Task) -> Plan:
         """Search, and always return a plan: a spent budget or a diverged simulation is a result with a reason.
 
-        Where the object that has to be grasped is too low or too wide for the fingers, too heavy for the arm, or out of its
-        reach and not to be pushed, that is the reason, and nothing is searched.
+        Where the object that has to be grasped is too low or too wide for the fingers, or out of the arm's reach and not to
+        be pushed, that is the reason, and nothing is searched.
 
         Raises:
             PluginError: If ``search`` returns something else than a plan.
@@ -59,7 +59,7 @@ class Planner(ABC, Generic[OptionsT]):
         """That the object to be grasped cannot be, if so: shelf, arm and object do not fit together, or it is out of reach."""
         if (wanted := task.goal.grasped(task.scene)) is None:
             return None
-        if misfit := _misfit(task.scene, wanted, task.arm) or _too_heavy(task.scene, wanted, task.force_limit):
+        if misfit := _misfit(task.scene, wanted, task.arm):
             return Plan(Status.FAILED, misfit)
         beyond = None if self.pushes_target else task.out_of_reach(wanted)
         return None if beyond is None else Plan(Status.FAILED, f"{wanted} is out of reach: {beyond.why}")
@@ -93,13 +93,3 @@ def _misfit(scene: Scene, wanted: str, arm: ArmShape) -> str:
     if 2.0 * (item.radius + FINGER_ROOM) > arm.max_opening:
         return f"{wanted} is {2.0 * item.radius:g} m wide, too wide for a gripper that opens {arm.max_opening:g} m"
     return ""
-
-
-def _too_heavy(scene: Scene, wanted: str, force_limit: float) -> str:
-    """Why an arm cannot draw an object out, which it does not lift; empty: it can."""
-    item = scene.objects[scene.index(wanted)]
-    if (drag := drag_on_board(scene, item)) <= force_limit:
-        return ""
-    return (
-        f"{wanted}, of {item.mass:g} kg, takes {drag:.0f} N to be drawn out, and the arm stalls above {force_limit:g} N"
-    )

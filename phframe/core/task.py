@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -70,7 +69,6 @@ class Task:
         start: The world to plan from; it need not be the scene's initial state.
         goal: What is to be achieved.
         arm: The arm seen from above.
-        force_limit: Net contact force above which the arm that will carry the plan out stalls (N).
         rejected: Actions that could not be carried out or came to nothing, and why; see ``rejects``.
         earlier: What the plan before this one had tried from where its last action that was carried out was to lead: a tree
             whose root is the state that was expected there. None: this is the first plan.
@@ -85,7 +83,6 @@ class Task:
         start: State,
         goal: Goal[Any],
         arm: ArmShape,
-        force_limit: float = math.inf,
         topology: TopologyEngine[Any],
         apply: Apply,
         rng: np.random.Generator,
@@ -101,7 +98,7 @@ class Task:
         begin_steering: Begin | None = None,
         advisor: Advisor = NOBODY,
     ) -> None:
-        self.scene, self.start, self.goal, self.arm, self.force_limit = scene, start, goal, arm, force_limit
+        self.scene, self.start, self.goal, self.arm = scene, start, goal, arm
         self.rejected, self.earlier, self.rng, self.budget = rejected, earlier, rng, budget
         self._limits = replace(budget)
         self._confirm, self._sample = confirm, sample

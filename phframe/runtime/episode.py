@@ -201,7 +201,7 @@ class _Run:
             self._topology,
             np.random.default_rng(self._seeds.spawn(1)[0]),
             goal=self._goal,
-            arm=self._execution.arm,
+            arm=self._execution.arm.shape,
             budget=Budget(max(0.0, loop.time_limit - spent.total), simulations),
             rejected=self._rejections,
             earlier=self._earlier,

@@ -15,7 +15,7 @@ from phframe.core import (
     NOBODY,
     Action,
     Advisor,
-    ArmModel,
+    ArmShape,
     ArmState,
     Budget,
     ExploredTree,
@@ -100,7 +100,7 @@ class PlanningWorld(World):
         rng: np.random.Generator,
         *,
         goal: Goal[Any],
-        arm: ArmModel[Any] | None = None,
+        arm: ArmShape | None = None,
         budget: Budget = Budget(),  # noqa: B008 - immutable
         rejected: tuple[Rejection, ...] = (),
         earlier: ExploredTree | None = None,
@@ -127,14 +127,12 @@ class PlanningWorld(World):
             object_reach: Whether that arm can have an object grasped where it stands; None: not known.
             advisor: Whom the planner may ask.
         """
-        arm = self.arm if arm is None else arm
         at_once = isinstance(self.physics, SupportsManySimulations)
         return Task(
             scene=self.scene,
             start=start,
             goal=goal,
-            arm=arm.shape,
-            force_limit=arm.force_limit,
+            arm=self.arm.shape if arm is None else arm,
             topology=topology,
             apply=self.apply,
             apply_many=self.apply_many if self._workers > 1 or at_once else None,

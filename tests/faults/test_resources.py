@@ -38,8 +38,8 @@ print(json.dumps(found))
 """
 NUMBERS = {"pymunk": 10, "fast": 10, "mujoco": 5, "pybullet": 5}
 """Solves in one process, by engine; some are slower."""
-WARM, MOST_GROWTH = 3, 24.0
-"""Solves until all is loaded that ever will be, and what memory may grow by from then on, whatever the number (MB)."""
+WARM, MOST_GROWTH, MOST_A_SOLVE = 3, 24.0, 0.1
+"""Solves until all is loaded that ever will be, and what memory may grow by from then on: in all, and a solve (MB)."""
 
 
 @pytest.mark.parametrize(
@@ -61,4 +61,4 @@ def test_many_recorded_solves_take_no_more_than_few(backend: str, tmp_path: Path
     threads, files, memory = zip(*json.loads(done.stdout), strict=True)
     assert max(threads[WARM:]) <= threads[WARM]
     assert max(files[WARM:]) <= files[WARM]
-    assert memory[-1] - memory[WARM] <= MOST_GROWTH
+    assert memory[-1] - memory[WARM] <= MOST_GROWTH + MOST_A_SOLVE * number

@@ -116,20 +116,6 @@ def test_a_target_that_the_fingers_pass_over_is_refused_at_once(planner: Planner
         assert found.cost.simulated_actions == 0
 
 
-@pytest.mark.parametrize("planner", [Asked(Options()), Pusher(Options())])
-def test_a_target_too_heavy_to_be_drawn_out_is_refused_at_once(planner: Planner[Any]) -> None:
-    """Coulomb: mu m g, with mu of 0.5, against the 60 N of the planar arm."""
-    for mass, asked in ((12.2, True), (12.3, False), (30.0, False)):
-        heavy = replace(SCENE.objects[SCENE.target_index], mass=mass, friction=0.5)
-        with PlanningWorld(WorldSpec(replace(SCENE, objects=(heavy,)))) as world:
-            topology, rng = create(Kind.TOPOLOGY, "ripser"), np.random.default_rng(0)
-            found = planner.plan(world.task(world.scene.initial_state(), topology, rng, goal=RETRIEVE))
-        assert (found.reason == "asked") is asked, found
-        told = f"of {mass:g} kg, takes {0.5 * mass * 9.81:.0f} N to be drawn out, and the arm stalls above 60 N"
-        assert asked or told in found.reason
-        assert found.cost.simulated_actions == 0
-
-
 @pytest.mark.slow
 @pytest.mark.needs_mujoco
 @pytest.mark.needs_baxter
