@@ -39,8 +39,8 @@ from phframe.core.errors import BudgetExceededError, error_text
 from phframe.core.run_spec import first_fault
 from phframe.core.state import ArmState
 from phframe.registry import Kind
+from phframe.runtime.adapters import adapter_of
 from phframe.runtime.blame import is_own, title_of
-from phframe.runtime.files import adapter_of
 
 GoalT = TypeVar("GoalT", bound=Goal[Any])
 
@@ -114,7 +114,7 @@ def _checked_plan(plan: Plan, scene: Scene, start: State, title: str) -> Plan:
             checked: Plan = adapter.validate_python(written)
         except ValidationError as error:
             raise refused(title, f"its plan cannot be: {first_fault(error)}") from None
-    if (problem := next(_problems_of_plan(checked, scene), None)) is not None:
+    if (problem := next(problems_of_plan(checked, scene), None)) is not None:
         raise refused(title, f"its plan cannot be: {problem}")
     return replace(checked, cost=plan.cost, reason=checked.reason[:LONGEST_TEXT])
 
@@ -126,20 +126,22 @@ def _from_start(plan: Plan, start: State) -> Plan:
     return replace(plan, tree=replace(plan.tree, nodes=(replace(root, state=start), *rest)))
 
 
-def _problems_of_plan(plan: Plan, scene: Scene) -> Iterator[str]:
+def problems_of_plan(plan: Plan, scene: Scene) -> Iterator[str]:
+    """Why something is no plan for a scene: states, motions and actions of its tree that cannot be."""
     for number, node in enumerate(plan.tree.nodes if plan.tree else ()):
         where = f"node {number} of its tree"
         if (problem := problem_of_state(node.state, scene)) is not None:
             yield f"{where}: {problem}"
         if node.motion is not None and (problem := problem_of_motion(node.motion)) is not None:
             yield f"{where}: {problem}"
-        if node.action is not None and (problem := _problem_of_action(node.action, scene)) is not None:
+        if node.action is not None and (problem := problem_of_action(node.action, scene)) is not None:
             yield f"{where}: {problem}"
         if node.value is not None and math.isnan(node.value):
             yield f"{where} has a value that is not a number"
 
 
-def _problem_of_action(action: Action, scene: Scene) -> str | None:
+def problem_of_action(action: Action, scene: Scene) -> str | None:
+    """Why something is no action in a scene; None: it is one."""
     named = (*action.moves, *(() if action.path.manipuland is None else (action.path.manipuland,)))
     if strange := [name for name in named if name not in scene.ids]:
         return f"the action {action.name[:40]!r} is with {strange[0][:40]!r}, and there is no such object"
