@@ -17,6 +17,7 @@ from pydantic import TypeAdapter, ValidationError
 from phframe.core import Episode, InputError, Plan
 from phframe.core.files import write_file
 from phframe.core.paths import user_path
+from phframe.core.regular_file import read_regular_file
 
 FORMAT = 2
 """Of the files; a file of another one is refused."""
@@ -78,7 +79,7 @@ def load(path: str | Path) -> Plan | Episode:
     """
     source = user_path(path)
     try:
-        document = json.loads(source.read_text(encoding="utf-8"))
+        document = json.loads(read_regular_file(source).decode())
     except OSError as error:
         raise InputError(f"cannot read {source}: {error.strerror}") from None
     except (ValueError, RecursionError, OverflowError) as error:
