@@ -62,4 +62,5 @@ def main() -> None:
     reserve_output()
     os.environ.setdefault("PYTHONSAFEPATH", "1")  # processes that are started import nothing from the working directory
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it would ask every distribution for them
+    os.environ.setdefault("RUST_LOG", "off")  # Rerun would tell of its troubles itself, in colours
     app(prog_name="phframe", obj=SUPERVISED)
