@@ -6,8 +6,6 @@ from collections.abc import Iterable, Iterator
 
 from phframe.core import Contact, GripperTrajectory, Stop, StopCause, StopReason
 
-GRAVITY = 9.81
-"""Acceleration of free fall (m/s^2)."""
 START_POSITION, START_ANGLE = 2e-3, 1e-2
 """Distance (m) and angle (rad) from the arm within which a trajectory must begin."""
 TOP_SPEED = 20.0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import faulthandler
 import multiprocessing
 import os
@@ -13,7 +12,7 @@ from multiprocessing.connection import Connection, wait
 from threading import Thread
 from typing import Any
 
-_PR_SET_PDEATHSIG = 1
+from phframe.core.process_limits import end_with_parent, limit_process
 
 
 def isolate(output: Connection, memory: int) -> None:
@@ -36,7 +35,7 @@ def isolate(output: Connection, memory: int) -> None:
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     _leave_fork_server()
     _die_with_the_bench()
-    _limit_memory(memory)
+    limit_process(RLIMIT_CORE=0, RLIMIT_AS=memory * 2**20)
 
 
 def kill_group(leader: int) -> None:
@@ -61,7 +60,7 @@ def _die_with_the_bench() -> None:
     bench = multiprocessing.parent_process()
     assert bench is not None, "a trial is a child"
     if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
+        end_with_parent()
     else:
         Thread(target=_watch, args=(bench.sentinel,), daemon=True).start()
     if wait([bench.sentinel], 0):  # it ended before this was said
@@ -71,17 +70,6 @@ def _die_with_the_bench() -> None:
 def _watch(bench: int) -> None:
     wait([bench])
     kill_group(os.getpid())
-
-
-def _limit_memory(megabytes: int) -> None:
-    try:
-        import resource
-    except ImportError:  # Windows has no such limit
-        return
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    _, most = resource.getrlimit(resource.RLIMIT_AS)
-    wanted = megabytes * 2**20
-    resource.setrlimit(resource.RLIMIT_AS, (wanted if most < 0 else min(wanted, most), most))
 
 
 def lift_memory_limit() -> None:

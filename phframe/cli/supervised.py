@@ -5,7 +5,6 @@ from __future__ import annotations
 import atexit
 import json
 import os
-import signal
 import sys
 from collections.abc import Callable
 from contextlib import suppress
@@ -23,7 +22,6 @@ SUPERVISED = "supervised"
 """Object of the top context where a command is a process of its own, so that it may fork."""
 LOADING = 300.0
 """For what comes before planning: finding the parts, building the worlds, choosing where an arm stands (s)."""
-_PR_SET_PDEATHSIG = 1
 
 
 class WatchdogLink:
@@ -160,8 +158,8 @@ def _done(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
 def _end_with(parent: int) -> None:
     """Have this process killed when the watchdog is, so that nothing runs on unwatched; what it has written stays."""
     if sys.platform == "linux":
-        import ctypes  # numpy does it anyway, but not in the watchdog
+        from phframe.core.process_limits import end_with_parent
 
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
+        end_with_parent()
         if os.getppid() != parent:
             os._exit(1)

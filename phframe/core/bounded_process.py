@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from phframe.core.errors import PhframeError
+from phframe.core.process_limits import limit_process
 
 OUT_OF_MEMORY = 88
 """Exit code of a process that may not have as much memory as it wants."""
@@ -99,18 +100,7 @@ def _limit(memory: int, seconds: float) -> None:
     """Limit this process; it leaves no file and no core, and ends in time though nobody is there to end it."""
     if hasattr(signal, "alarm"):
         signal.alarm(math.ceil(seconds) + GRACE)
-    try:
-        import resource
-    except ImportError:  # Windows has none
-        return
-    for what, most in (
-        (resource.RLIMIT_CORE, 0),
-        (resource.RLIMIT_FSIZE, 0),
-        (resource.RLIMIT_AS, _address_space() + memory * 2**20),
-    ):
-        with suppress(ValueError, OSError):  # macOS may refuse; a lower limit of the user's stays
-            _, hard = resource.getrlimit(what)
-            resource.setrlimit(what, (most if hard < 0 else min(most, hard), hard))
+    limit_process(RLIMIT_CORE=0, RLIMIT_FSIZE=0, RLIMIT_AS=_address_space() + memory * 2**20)
 
 
 def _address_space() -> int:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from phframe.core.errors import PluginError, error_text
+from phframe.core.metadata_fields import fields
 
 GROUP = "phframe"
 """The entry-point group of plugins."""
@@ -112,13 +113,8 @@ def _text(distribution: metadata.Distribution, name: str) -> str:
 
 
 def _name_and_version(distribution: metadata.Distribution) -> tuple[str, str]:
-    fields: dict[str, str] = {}
-    for line in (_text(distribution, "METADATA") or _text(distribution, "PKG-INFO")).splitlines():
-        if not line.strip():
-            break  # what follows is the description
-        key, _, value = line.partition(":")
-        fields.setdefault(key.strip().lower(), value.strip())
-    name, version = fields.get("name", ""), fields.get("version", "")
+    found = list(fields(_text(distribution, "METADATA") or _text(distribution, "PKG-INFO")))
+    name, version = (next((value for key, value in found if key == wanted), "") for wanted in ("name", "version"))
     if not _NAME.fullmatch(name):
         raise PluginError(f"its metadata gives it {f'the name {_short(name)}' if name else 'no name'}")
     if not _VERSION.fullmatch(version):

@@ -33,10 +33,20 @@ from phframe.core.particle import Particle
 from phframe.core.physics import Physics, Settle, Stop, SupportsManySimulations, SupportsPropagation, Watch
 from phframe.core.plan import Certainty, Cost, Plan
 from phframe.core.planner import Planner
-from phframe.core.pose import compose, inverse, planar_pose, rotate, rotation_matrix, seen_from_above, tilt_of, yaw_of
+from phframe.core.pose import (
+    compose,
+    inverse,
+    planar_pose,
+    rotate,
+    rotated,
+    rotation_matrix,
+    seen_from_above,
+    tilt_of,
+    yaw_of,
+)
 from phframe.core.rejection import Rejection
 from phframe.core.run_spec import Loop, RunSpec
-from phframe.core.scene import Scene, coulomb_with_board
+from phframe.core.scene import Scene, coulomb_with_board, drag_on_board
 from phframe.core.search_tree import SearchTree
 from phframe.core.shape import Cylinder, Shape
 from phframe.core.shelf import BasePose, SceneObject, Shelf
@@ -148,11 +158,13 @@ __all__ = [
     "condition_of",
     "controlled_path",
     "coulomb_with_board",
+    "drag_on_board",
     "inverse",
     "motion_planner_of",
     "planar_pose",
     "refuse_foreign",
     "rotate",
+    "rotated",
     "rotation_matrix",
     "seen_from_above",
     "starting_from",

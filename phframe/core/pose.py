@@ -61,3 +61,15 @@ def rotation_matrix(angle: float) -> FloatArray:
     """The matrix ``(2, 2)`` that turns plane vectors by ``angle`` (rad)."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, -s], [s, c]])
+
+
+def rotated(points: FloatArray, matrix: FloatArray) -> FloatArray:
+    """Plane vectors ``(..., 2)``, each a row, times rotation matrices ``(..., 2, 2)``: by products and sums alone.
+
+    The bits are then the same on every processor. Those of ``points @ matrix`` are not: BLAS fuses products and sums where
+    the processor can.
+    """
+    x, y = points[..., 0], points[..., 1]
+    return np.stack(
+        [x * matrix[..., 0, 0] + y * matrix[..., 1, 0], x * matrix[..., 0, 1] + y * matrix[..., 1, 1]], axis=-1
+    )

@@ -87,6 +87,15 @@ class Scene:
         return State(np.array(poses), (Condition.UPRIGHT,) * len(self.objects))
 
 
+GRAVITY = 9.81
+"""Acceleration of free fall (m/s^2)."""
+
+
 def coulomb_with_board(scene: Scene, item: SceneObject) -> float:
     """The coefficient of friction between an object and the board."""
     return scene.shelf.board_friction if item.friction is None else item.friction
+
+
+def drag_on_board(scene: Scene, item: SceneObject) -> float:
+    """The force that keeps an object sliding on the board, Coulomb's mu m g (N)."""
+    return coulomb_with_board(scene, item) * item.mass * GRAVITY

@@ -92,7 +92,8 @@ class _Slopes:
 
 def _dot(normals: FloatArray, vector: FloatArray) -> FloatArray:
     """Products ``(..., p, k)`` of normals ``(..., p, k, 2)`` and vectors ``(..., 2)``."""
-    return np.asarray((normals @ vector[..., None, :, None])[..., 0])
+    x, y = vector[..., 0, None, None], vector[..., 1, None, None]
+    return np.asarray(normals[..., 0] * x + normals[..., 1] * y)  # not by BLAS: see core.rotated
 
 
 def _of_pairs(arm: FloatArray, walls: FloatArray) -> FloatArray:

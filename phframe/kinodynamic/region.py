@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from phframe.core import FloatArray, State, rotation_matrix
+from phframe.core import FloatArray, State, rotated, rotation_matrix
 from phframe.kinodynamic.steered_tree import Room
 
 TURN = 0.1
@@ -158,7 +158,7 @@ class TargetInHand(Region):
     def distance(self, coordinates: FloatArray) -> float:
         """Of the target from where the fingers would hold it."""
         yaw = float(coordinates[2]) / TURN
-        local = (coordinates[3:] - coordinates[:2]) @ rotation_matrix(yaw)
+        local = rotated(coordinates[3:] - coordinates[:2], rotation_matrix(yaw))
         return math.hypot(float(local[0]) + self.past, float(local[1]))
 
     def sample(self, rng: np.random.Generator) -> FloatArray:

@@ -22,6 +22,8 @@ from phframe.core import (
     PhaseRule,
     State,
     Unreachable,
+    rotated,
+    rotation_matrix,
     starting_from,
 )
 from phframe.motion.trapezoidal_velocity import TrapezoidalProfile, trapezoidal_profile
@@ -140,9 +142,11 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
 
     def _in_base(self, first: FloatArray, poses: FloatArray, speeds: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Joint values and speeds ``(k, 3)``: the poses as the base sees them, from the first joint values on."""
-        c, s = np.cos(self.base_pose.yaw), np.sin(self.base_pose.yaw)
-        rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-        return first + (poses - poses[0]) @ rotation, speeds @ rotation
+        rotation = rotation_matrix(self.base_pose.yaw)
+        seen, faster = (
+            np.column_stack([rotated(each[:, :2], rotation), each[:, 2]]) for each in (poses - poses[0], speeds)
+        )
+        return first + seen, faster
 
 
 def _length(poses: FloatArray) -> float:

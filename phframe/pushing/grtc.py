@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import ClassVar
-
-import numpy as np
 
 from phframe.core import ROOT, FloatArray, Hint, Infeasible, Phase, Plan, State, Task
 from phframe.pushing.push_decision import PushDecision
@@ -137,7 +136,7 @@ class GrtcSearch:
     def _judged(self, node: int, row: int, place: FloatArray) -> int | str:
         """Close a push that did not do what it should; note what it met on the way in where it did."""
         found, tree, name = self.search.tree[node], self.search.tree, self.search.pushing.scene.ids[row]
-        short = float(np.linalg.norm(found.state.positions[row] - place))
+        short = math.hypot(*(found.state.positions[row] - place))
         if not found.closed and not self.pusher.is_there(found.state, row, place):
             tree.close(node, f"{name} ended {short:.2f} m from its place")
         if closed := tree[node].closed:

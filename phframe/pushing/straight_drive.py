@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from phframe.core import (
     State,
     Stop,
     StopCause,
+    rotated,
     rotation_matrix,
 )
 from phframe.geometry.arm_view import ArmView, arm_view
@@ -58,8 +60,8 @@ class StraightDrive:
             radii: Of the discs ``(n,)``, or of each of them (m).
         """
         start, end = self.action.path.poses
-        local = (points - end[:2]) @ rotation_matrix(float(end[2]))
-        length = float(np.linalg.norm(end[:2] - start[:2]))
+        local = rotated(points - end[:2], rotation_matrix(float(end[2])))
+        length = math.hypot(*(end[:2] - start[:2]))
         return np.asarray(distances_on_way_in(local, *self.view.boxes, length).min(axis=0) < radii)
 
 

@@ -22,6 +22,7 @@ from phframe.core import (
     PhaseRule,
     Scene,
     State,
+    rotated,
     rotation_matrix,
 )
 from phframe.geometry.arm_view import arm_view
@@ -104,7 +105,7 @@ class StraightPusher:
 
     def is_there(self, state: State, row: int, place: FloatArray) -> bool:
         """Whether an object is as near to a place ``(2,)`` (m) as a push to it must take it."""
-        return bool(np.linalg.norm(place - state.positions[row]) <= self._options.goal_radius)
+        return math.hypot(*(place - state.positions[row])) <= self._options.goal_radius
 
     def refusal(self, state: State, row: int, place: FloatArray) -> str:
         """Why an object is not to be pushed to a place ``(2,)`` (m); empty: it may."""
@@ -132,7 +133,7 @@ class StraightPusher:
         """
         name, at, radius = self._scene.ids[row], state.positions[row], float(self._scene.radii[row])
         way = place - at
-        along = way / np.linalg.norm(way)
+        along = way / math.hypot(*way)
         ahead = np.array([math.cos(yaw), math.sin(yaw)])
         half_width = (
             self._pushing.task.arm.insertion_width / 2.0 * abs(float(ahead[0] * along[1] - ahead[1] * along[0]))
@@ -162,10 +163,10 @@ class StraightPusher:
         """What keeps the arm from getting behind the object and through the push, if anything: a wall, or the object."""
         walls, (outside, begin, *_) = self._view.walls(yaw), points
         for first, last in pairwise(points):
-            length = float(np.linalg.norm(last - first))
+            length = math.hypot(*(last - first))
             if not walls.is_free(first) or (length and walls.travel(first, (last - first) / length, length) < length):
                 return "a wall is in the arm's way"
-        local, entry = (at - begin)[None] @ rotation_matrix(yaw), float(np.linalg.norm(begin - outside))
+        local, entry = rotated((at - begin)[None], rotation_matrix(yaw)), math.hypot(*(begin - outside))
         met = distances_on_way_in(local, *self._view.boxes, entry).min() < radius
         return "the arm cannot get behind it without touching it" if met else ""
 

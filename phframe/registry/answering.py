@@ -14,6 +14,7 @@ from typing import Any
 import pluggy
 
 from phframe.core.errors import PluginError, error_text
+from phframe.core.process_limits import limit_process
 from phframe.registry import hookspec
 from phframe.registry.answer import MOST_EXTENSIONS, MOST_NAMES, Answer, to_json
 from phframe.registry.extension import Extension
@@ -105,15 +106,7 @@ def _write(path: str, text: str) -> None:
 
 def _limit(memory: int, seconds: float) -> None:
     """End this process in time even if the one that asks is gone, and bound its memory."""
-    try:
-        import resource
-    except ImportError:  # Windows has no such limits
-        return
-    signal.alarm(int(2 * seconds) + 1)
-    for limit, value in (
-        (resource.RLIMIT_CORE, 0),
-        (resource.RLIMIT_CPU, int(2 * seconds) + 1),
-        (resource.RLIMIT_DATA, memory),
-    ):
-        _, most = resource.getrlimit(limit)
-        resource.setrlimit(limit, (value if most < 0 else min(value, most), most))
+    most = int(2 * seconds) + 1
+    if hasattr(signal, "alarm"):
+        signal.alarm(most)
+    limit_process(RLIMIT_CORE=0, RLIMIT_CPU=most, RLIMIT_DATA=memory)

@@ -10,6 +10,7 @@ from functools import cache
 from importlib import metadata
 from typing import TYPE_CHECKING
 
+from phframe.core.metadata_fields import requirements_of, version_of
 from phframe.registry.hookspec import PROJECT
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def _requirements(distribution: str) -> list[Requirement]:
 
 def _lines(distribution: str) -> Sequence[str]:
     try:
-        return metadata.requires(distribution) or ()
+        return requirements_of(distribution)
     except Exception:  # noqa: BLE001 - there is none, or none that can be read: it asks for nothing
         return ()
 
@@ -90,7 +91,7 @@ def _is_installed(name: str) -> bool:
     if name == PROJECT:  # it is running, perhaps from its source tree
         return True
     try:
-        return bool(metadata.version(name))
+        return bool(version_of(name))
     except (metadata.PackageNotFoundError, OSError, ValueError):
         return False
 

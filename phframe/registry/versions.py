@@ -8,6 +8,7 @@ from functools import cache
 from importlib import metadata
 
 from phframe.core.distributions import HOME
+from phframe.core.metadata_fields import version_of
 from phframe.registry.catalogue import Catalogue
 from phframe.registry.extension import Kind
 from phframe.registry.manager import look_up
@@ -44,6 +45,6 @@ def _of_extras(distribution: str, extras: Iterable[str]) -> Iterator[str]:
 @cache
 def _version(distribution: str) -> str:
     try:
-        return metadata.version(distribution) or ""
+        return version_of(distribution)
     except (metadata.PackageNotFoundError, OSError, ValueError):
         return "unknown" if distribution == HOME else ""

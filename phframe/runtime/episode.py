@@ -49,6 +49,8 @@ FRAME_PERIOD = 1.0 / 30.0
 """Of the world's time, between the moments that observers are shown (s)."""
 LEAST_TO_ACT = 60.0
 """Wall time that carrying out may take at least, all actions together (s); at most it is as long as planning may."""
+MOST_ALIKE = 5
+"""Of grasps, one after another, that came to the same and changed nothing: a sixth, from yet another side, would, too."""
 UNFINISHED = "unfinished: this is what there was of it when it was written down last"
 """Why an episode got no farther, in a file that was written while it ran."""
 
@@ -172,6 +174,8 @@ class _Run:
                 return outcome.status, ""
             if outcome.lost or not problem or len(self._plans) > self._loop.max_replans:
                 return self._ended(outcome, problem)
+            if self._is_stuck:
+                return outcome.status, f"{MOST_ALIKE} grasps in a row came to the same and changed nothing: {problem}"
 
     def _ended(self, outcome: Assessment, problem: str) -> tuple[Status, str]:
         """How far it got, and why no farther: what went wrong last, and what the goal's judge says."""
@@ -284,6 +288,17 @@ class _Run:
             if rejection.action.resembles(action) and (self._state.displacement(then) <= MOVED).all():
                 return f"{rejection.reason}; the planner proposes the same again: {action.name}"
         return ""
+
+    @property
+    def _is_stuck(self) -> bool:
+        """Whether the last grasps that were carried out all came to the same, from states that are about the same."""
+        last, states = self._rejections[-MOST_ALIKE:], self._rejected_in[-MOST_ALIKE:]
+        return (
+            len(last) == MOST_ALIKE
+            and all(each.action.kind is ActionKind.GRASP and each.unreachable is None for each in last)
+            and len({each.reason for each in last}) == 1
+            and all((self._state.displacement(then) <= self._loop.tolerance).all() for then in states)
+        )
 
     def _step(self, action: Action, expected: State, decision: Decision) -> str:
         """Carry out one action; why not, where the arm cannot."""

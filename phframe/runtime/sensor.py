@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from phframe.core import ArmShape, FloatArray, Scene, State, rotation_matrix
+from phframe.core import ArmShape, FloatArray, Scene, State, rotated, rotation_matrix
 from phframe.geometry.polygon import signed_distance
 from phframe.runtime.noise import POSITIONS, Noise
 
@@ -60,8 +60,8 @@ class Sensor:
         if state.arm is None:
             return []
         opening = float(np.clip(state.arm.opening, self._shape.min_opening, self._shape.max_opening))
-        x, y, yaw = state.arm.gripper
-        return [outline.vertices @ rotation_matrix(float(yaw)).T + (x, y) for outline in self._shape.outlines(opening)]
+        at, turn = state.arm.gripper[:2], rotation_matrix(float(state.arm.gripper[2])).T
+        return [rotated(outline.vertices, turn) + at for outline in self._shape.outlines(opening)]
 
 
 class _Place:

@@ -32,6 +32,8 @@ from phframe.core import (
     Unreachable,
     Watch,
     motion_planner_of,
+    rotated,
+    rotation_matrix,
     starting_from,
     time_path,
 )
@@ -202,7 +204,9 @@ class World:
 
     def _front(self, yaw: float) -> float:
         """How far the arm stands out ahead of its fingertip at a yaw (m)."""
-        return max(float((outline.vertices @ [np.cos(yaw), -np.sin(yaw)]).max()) for outline in self.arm.shape.closed)
+        return max(
+            float(rotated(outline.vertices, rotation_matrix(-yaw).T)[:, 0].max()) for outline in self.arm.shape.closed
+        )
 
     def close(self) -> None:
         """Give the engine's memory back."""

@@ -6,11 +6,9 @@ import re
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
-from scipy.spatial import ConvexHull as QuickHull
-from scipy.spatial import QhullError
 
 from phframe.core import ArmError, FloatArray, IntArray
 from phframe.core.regular_file import read_regular_file
@@ -77,7 +75,7 @@ def read_hull(path: Path, scale: Vector) -> tuple[FloatArray, IntArray]:
         if len(content) > MOST_BYTES:
             raise ValueError(f"it is larger than {MOST_BYTES // 1_000_000} MB")
         return _hull(content, path.suffix.lower(), scale)
-    except (OSError, ValueError, QhullError) as error:
+    except (OSError, ValueError) as error:
         raise ArmError(f"cannot make a convex hull of the mesh {path}: {_first_line(error)}") from None
 
 
@@ -89,7 +87,7 @@ def _hull(content: bytes, suffix: str, scale: Vector) -> tuple[FloatArray, IntAr
         raise ValueError(f"it has {len(points)} points in space where four finite ones are needed")
     if len(points) > MOST_POINTS:
         raise ValueError(f"it has {len(points)} points; at most {MOST_POINTS} are taken. Give a coarser mesh.")
-    hull = QuickHull(points)
+    hull = _quickhull(points)
     triangles = hull.simplices.copy()
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     inwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), hull.equations[:, :3]) < 0.0
@@ -122,3 +120,13 @@ def _numbers(line: bytes, content: bytes) -> FloatArray:
 
 def _first_line(error: Exception) -> str:
     return getattr(error, "strerror", None) or next(iter(str(error).splitlines()), type(error).__name__)
+
+
+def _quickhull(points: FloatArray) -> Any:
+    from scipy.spatial import ConvexHull as QuickHull  # whose import takes a third of the start of a solve
+    from scipy.spatial import QhullError
+
+    try:
+        return QuickHull(points)
+    except QhullError as error:
+        raise ValueError(_first_line(error)) from None

@@ -23,6 +23,7 @@ from phframe.core import (
     Watch,
 )
 from phframe.planners.phia import PHIA, PHIAOptions
+from phframe.runtime.episode import MOST_ALIKE
 from phframe.runtime.execution_world import ExecutionWorld
 from phframe.runtime.observer import Observer
 from phframe.runtime.world import WorldSpec
@@ -122,6 +123,29 @@ def test_a_grasp_that_misses_is_reached_or_tried_again() -> None:
     assert all(step.after.held is None for step in episode.steps)
     once = run(ExecutionWorld(WorldSpec(scene_of((0.4, 0.3)))), Misses(), loop=Loop(max_replans=0))
     assert (len(once.plans), once.replans, once.status) == (1, 0, Status.REACHED)
+
+
+def test_grasps_from_all_sides_that_come_to_the_same_are_not_tried_for_ever() -> None:
+    """Each stops short of the target, and each a little elsewhere, so that none is the same again."""
+
+    class MissesElsewhere(Noting):
+        def search(self, task: Task) -> Plan:
+            plan = super().search(replaced(task))
+            assert plan.tree is not None
+            *nodes, last = plan.tree.nodes
+            assert last.action is not None
+            short = replace(last.action, path=last.action.path.shifted([-0.15 - 0.02 * len(self.tasks), 0.0, 0.0]))
+            return replace(plan, tree=replace(plan.tree, nodes=(*nodes, replace(last, action=short))))
+
+    def replaced(task: Task) -> Task:
+        task.rejected = ()
+        return task
+
+    episode = run(ExecutionWorld(WorldSpec(scene_of((0.4, 0.3)))), MissesElsewhere(), loop=Loop(max_replans=30))
+    assert (episode.status, len(episode.steps), len(episode.rejections)) == (Status.REACHED, MOST_ALIKE, MOST_ALIKE)
+    assert (
+        episode.reason == f"{MOST_ALIKE} grasps in a row came to the same and changed nothing: the target was not held"
+    )
 
 
 @pytest.mark.parametrize("planner", [OnlyClears(PHIAOptions()), Noting()])

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from phframe.backends.contract import GRAVITY
 from phframe.backends.fast_ import layout
 from phframe.backends.fast_.layout import FastRun, FastWorld
 from phframe.core import (
@@ -17,7 +16,7 @@ from phframe.core import (
     Scene,
     SceneObject,
     UnknownShapeError,
-    coulomb_with_board,
+    drag_on_board,
 )
 
 
@@ -64,7 +63,7 @@ def _bodies(scene: Scene, figures: FastFigures) -> FloatArray:
         radius, mass = _disc(item), item.mass
         inertia, lever = mass * radius * radius / 2.0, radius * figures.standing_radius
         bodies[row, layout.BY_MASS], bodies[row, layout.BY_INERTIA] = 1.0 / mass, 1.0 / inertia
-        most = coulomb_with_board(scene, item) * mass * GRAVITY
+        most = drag_on_board(scene, item)
         bodies[row, layout.RADIUS : layout.FRICTION_LEVER + 1] = radius, mass, inertia, most, lever
         bodies[row, layout.TOP] = item.shape.height - GRAZING
     return bodies

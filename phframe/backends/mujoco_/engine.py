@@ -20,11 +20,11 @@ from phframe.backends.articulated import (
     Progress,
     substeps,
 )
-from phframe.backends.contract import GRAVITY
 from phframe.backends.mujoco_.model import build_model
 from phframe.backends.mujoco_.options import MujocoOptions
 from phframe.backends.mujoco_.shelf import BOARD, ENDING_BOARD, meets
 from phframe.core import ArmModel, BasePose, FloatArray, Scene, planar_pose, seen_from_above
+from phframe.core.scene import GRAVITY
 
 AWAY = 10.0
 """What has spilled is put this far before the mouth (m), where it meets nothing."""

@@ -19,7 +19,6 @@ from phframe.backends.articulated import (
     Progress,
     substeps,
 )
-from phframe.backends.contract import GRAVITY
 from phframe.backends.pybullet_.arm import LoadedArm, inertias, load_arm, place_joints, sags, weight
 from phframe.backends.pybullet_.options import PybulletOptions
 from phframe.backends.pybullet_.output_capture import bullet
@@ -27,6 +26,7 @@ from phframe.backends.pybullet_.shelf import Bodies, build_shelf, set_held
 from phframe.backends.pybullet_.sleeping import LOOK, Rest
 from phframe.backends.pybullet_.urdf import prepared_urdf
 from phframe.core import ArmModel, BasePose, FloatArray, Scene, seen_from_above
+from phframe.core.scene import GRAVITY
 
 NEAR = 1e-5
 """Bodies this close (m) touch, whether or not they press; Bullet tells of what is farther, too."""

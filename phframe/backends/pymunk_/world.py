@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from phframe.backends.contract import GRAVITY
 from phframe.backends.pymunk_.chipmunk import (
     ChipmunkBody,
     ChipmunkSpace,
@@ -21,7 +20,7 @@ from phframe.backends.pymunk_.chipmunk import (
 )
 from phframe.backends.pymunk_.measures import Measures
 from phframe.backends.pymunk_.shapes import Footprint, footprint
-from phframe.core import ArmShape, Condition, FloatArray, Scene, SceneObject, State, coulomb_with_board, yaw_of
+from phframe.core import ArmShape, Condition, FloatArray, Scene, SceneObject, State, drag_on_board, yaw_of
 
 WALL_THICKNESS = 0.1
 ARM, OBJECT, WALL = 1, 2, 3
@@ -283,7 +282,7 @@ def _add_walls(space: ChipmunkSpace, scene: Scene, surfaces: PymunkSurfaces) -> 
 
 def _add_item(space: ChipmunkSpace, model: PymunkModel, item: SceneObject, pose: list[float]) -> ShelfItem:
     (x, y, *_), radius = pose, item.radius
-    friction = coulomb_with_board(model.scene, item) * item.mass * GRAVITY
+    friction = drag_on_board(model.scene, item)
     foot = footprint(space, item.shape, item.mass, friction)
     foot.body.position, foot.body.angle = (x, y), yaw_of(pose)
     meets = OTHERS | model.meeting[item.shape.height]
