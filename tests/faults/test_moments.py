@@ -37,7 +37,7 @@ MIXTURES = {
     "SIGTERM, then SIGINT": (signal.SIGTERM, signal.SIGINT),
     "SIGHUP, SIGTERM, SIGINT": (signal.SIGHUP, signal.SIGTERM, signal.SIGINT),
 }
-AFTER_INSTALLING = 50
+AFTER_INSTALLING = 200
 """Function calls that it takes to listen to signals."""
 STRETCHES = (
     (TOP, "install", 20_000),  # finding the command, once it listens: before that there is only the interpreter
