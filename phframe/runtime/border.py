@@ -47,7 +47,7 @@ GoalT = TypeVar("GoalT", bound=Goal[Any])
 
 LONGEST_TEXT = 2000
 """Characters of a reason or a name that a part gives."""
-MOST_NODES, MOST_ALL_LEGS, MOST_ACTIONS = 100_000, 1_000_000, 1000
+MOST_NODES, MOST_ALL_LEGS, MOST_ACTIONS = 100_000, 1_000_000, 10_000
 """Of a plan: nodes of its tree, legs of all paths in that, actions that are to be carried out."""
 _FIGURES = ("duration", "largest_force", "tracking_error", "followed")
 """Of a motion, that are finite and not negative."""

@@ -212,10 +212,10 @@ class ManyActions(Planner[Options]):
         return GripperPath(poses, (Phase.APPROACH,) * self.legs, {Phase.APPROACH: rule})
 
 
-class AllThatMayBe(ManyActions):
-    """As many actions as a plan may have."""
+class TooManyActions(ManyActions):
+    """More than a plan may have."""
 
-    number = 1000
+    number = 10_001
 
 
 class LongAction(ManyActions):
