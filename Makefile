@@ -7,8 +7,12 @@ TEST_3D_EXTRAS ?= dev,mujoco,pybullet,ompl,baxter,meshes,video
 DEMO_EXTRAS ?= rerun
 PICTURES_EXTRAS ?= rerun,mujoco,ompl,baxter,meshes,video,plots,report
 BENCH_EXTRAS ?= dev,fast,rerun,mujoco,pybullet,ompl,baxter
+MUTATION_EXTRAS ?= dev,mutation
 SCENE ?= vieira/basic
 TIMES ?= 10
+ROOM ?= topology
+SAMPLE ?= 50
+SEED ?= 0
 # What is tested with phframe: plugins as their users have them, installed.
 PLUGINS := plugins/phframe-lookahead
 3D := needs_mujoco or needs_pybullet or needs_ompl or needs_baxter or needs_meshes or needs_video
@@ -30,7 +34,7 @@ has_plugins = import importlib.metadata as m; [m.version(name) for name in '$(no
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-3d test-long trials lint bench pictures clean interpreter FORCE
+.PHONY: help demo test test-3d test-long trials mutants lint bench pictures clean interpreter FORCE
 
 help: ## say what can be made (the default)
 	@echo 'usage: make TARGET [PYTHON=/path/to/python3.11]'
@@ -51,6 +55,10 @@ test-long: $(call stamp,$(TEST_EXTRAS)) ## run the long tests of benches and the
 # The suites of fault injection, as many times over as TIMES says; they print what they tried.
 trials: $(call stamp,$(BENCH_EXTRAS)) ## try to break it, TIMES times as often as the tests do, and count the trials
 	@PHFRAME_TEST_TIMES=$(TIMES) $(VENV)/bin/python -m pytest $(PYTEST_FLAGS) tests/faults tests/conformance/test_any_order.py
+
+# Mutation testing, in a copy of the tree; the rooms are in tests/mutation/rooms.toml, and SAMPLE=0 means all mutants.
+mutants: $(call stamp,$(MUTATION_EXTRAS)) ## make SAMPLE mutants of the code of ROOM and print those that its tests do not notice
+	@$(VENV)/bin/python -m tests.mutation.mutants $(ROOM) --sample $(SAMPLE) --seed $(SEED)
 
 test-3d: $(call stamp,$(TEST_3D_EXTRAS)) ## run the tests of the 3D engines and of Baxter
 	@$(VENV)/bin/python -c "import av, mujoco, ompl.base, pinocchio, toppra, trimesh"

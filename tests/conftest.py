@@ -7,7 +7,7 @@ import threading
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import Phase, settings
 
 from tests.trials import NOTES, counted
 
@@ -17,6 +17,9 @@ os.environ.setdefault(NOTES, str(Path(CACHE.name, "trials")))  # the processes t
 
 settings.register_profile("phframe", deadline=None, print_blob=True)  # a busy machine is no failure
 settings.register_profile("same-every-time", settings.get_profile("phframe"), derandomize=True)
+settings.register_profile(  # where it is enough to know that something fails
+    "mutants", settings.get_profile("same-every-time"), phases=[Phase.explicit, Phase.generate]
+)
 settings.load_profile(os.environ.get("PHFRAME_TEST_PROFILE", "phframe"))
 
 if threading.current_thread() is threading.main_thread():  # a shell starts jobs in the background with Ctrl-C ignored

@@ -127,7 +127,9 @@ def test_help_lists_every_target_that_is_meant_for_people(bin_folder: Path) -> N
         env={"PATH": str(bin_folder)}, capture_output=True, text=True, check=True,
     )  # fmt: skip
     listed = {line.split("\t")[0].strip() for line in result.stdout.splitlines()[1:]}
-    assert listed == {"help", "demo", "test", "test-3d", "test-long", "trials", "lint", "bench", "pictures", "clean"}
+    assert listed == {
+        "help", "demo", "test", "test-3d", "test-long", "trials", "mutants", "lint", "bench", "pictures", "clean",
+    }  # fmt: skip
 
 
 def recipe(target: str, *options: str) -> str:
@@ -151,6 +153,12 @@ def test_the_core_is_tested_without_the_libraries_for_3d_and_the_rest_with_all_o
     assert demanded is not None
     assert set(demanded[1].split(", ")) == {"av", "mujoco", "ompl.base", "pinocchio", "toppra", "trimesh"}
     assert "__import__('pybullet')" in rest
+
+
+def test_mutants_are_made_of_the_room_as_many_as_asked_for_and_by_the_seed() -> None:
+    lines = recipe("mutants", "ROOM=pushing", "SAMPLE=7", "SEED=3", "--always-make")
+    assert "-m tests.mutation.mutants pushing --sample 7 --seed 3" in lines
+    assert ".[dev,mutation]" in lines
 
 
 def test_plugins_are_installed_for_the_tests_and_not_for_the_demonstration() -> None:

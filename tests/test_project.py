@@ -108,10 +108,10 @@ def test_command_is_installed_and_its_function_exists() -> None:
 def test_all_means_every_engine() -> None:
     (everything,) = requirements("all")
     assert everything.extras == ENGINES
-    assert set(project()["optional-dependencies"]) == ENGINES | {"all", "dev"}
+    assert set(project()["optional-dependencies"]) == ENGINES | {"all", "dev", "mutation"}
 
 
-@pytest.mark.parametrize("extra", [None, "dev", *sorted(ENGINES)])
+@pytest.mark.parametrize("extra", [None, "dev", "mutation", *sorted(ENGINES)])
 def test_constraints_meet_each_requirement(extra: str | None) -> None:
     pinned = constraints()
     for requirement in requirements(extra):
@@ -189,6 +189,14 @@ def test_extra_is_left_out_where_its_engine_has_no_wheel(
     assert marker is not None
     here = {"python_version": "3.11", "implementation_name": "cpython"}
     assert marker.evaluate({**here, **environment}) is available
+
+
+def test_what_mutants_are_made_of_and_the_tests_that_are_to_notice_them_exist() -> None:
+    rooms = tomllib.loads((ROOT / "tests/mutation/rooms.toml").read_text("utf-8"))["rooms"]
+    assert rooms
+    for room in rooms.values():
+        assert all(list((ROOT / path).glob("**/*.py")) or (ROOT / path).is_file() for path in room["code"])
+        assert all(list((ROOT / path).glob("**/test_*.py")) or (ROOT / path).is_file() for path in room["tests"])
 
 
 def test_every_part_of_the_package_is_described_to_contributors() -> None:

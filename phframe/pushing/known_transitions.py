@@ -26,7 +26,7 @@ class KnownTransitions:
         """The push that was to come next."""
         if earlier is None:
             return
-        for node in earlier.nodes[1:]:
+        for node in earlier.nodes:
             if PushDecision.of(node.decision).confirmed:
                 continue
             if node.action is not None and node.motion is not None and node.parent is not None:

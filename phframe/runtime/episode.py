@@ -121,13 +121,11 @@ class _Run:
             self._note(self._execution.start())
             episode = self._so_far(*self._outcome())
         except BaseException as error:
-            told = blamed(error, self._spec)
-            reason = "interrupted by Ctrl-C" if isinstance(error, KeyboardInterrupt) else error_text(told)
+            blame = error_text(blamed(error, self._spec))
+            reason = "interrupted by Ctrl-C" if isinstance(error, KeyboardInterrupt) else blame
             partial = self._so_far(Status.FAILED, reason)
             self._tell(lambda observer: observer.interrupted(partial))
-            if told is error:
-                raise
-            raise told from error
+            raise
         self._tell(lambda observer: observer.finished(episode))
         return episode
 

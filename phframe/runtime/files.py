@@ -17,6 +17,7 @@ from phframe.core import Episode, InputError, Plan
 from phframe.core.errors import error_text
 from phframe.core.files import write_file
 from phframe.core.paths import path_shown, user_path
+from phframe.core.regular_file import read_regular_file
 from phframe.core.run_spec import first_fault
 from phframe.core.stored_json import parse_json
 from phframe.runtime.adapters import adapter_of
@@ -91,8 +92,7 @@ def load(path: str | Path) -> Plan | Episode:
 
 
 def _content(path: Path, shown: str) -> str:
-    with path.open("rb") as file:
-        content = file.read(MOST_BYTES + 1)
+    content = read_regular_file(path, MOST_BYTES + 1)
     if len(content) > MOST_BYTES:
         raise InputError(f"{shown} is larger than {MOST_BYTES >> 20} MB; that is no plan or episode")
     return content.decode()

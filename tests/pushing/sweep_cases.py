@@ -45,7 +45,11 @@ class Case:
 
     @property
     def geometry(self) -> SweepGenerator:
-        return SweepGenerator(self.corridor, self.local, RADIUS, RADIUS, self.view, PushingOptions())
+        return self.generator(PushingOptions())
+
+    def generator(self, options: PushingOptions) -> SweepGenerator:
+        """Of its sweeps, with options."""
+        return SweepGenerator(self.corridor, self.local, RADIUS, RADIUS, self.view, options)
 
     def fitted(self, direction: Direction, tilt: float, outlines: tuple[Outline, ...] = ARM.closed) -> Push | None:
         """The sweep in one direction at one tilt, if it fits."""

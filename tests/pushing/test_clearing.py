@@ -20,11 +20,14 @@ from phframe.core import (
     Scene,
     State,
     Status,
+    StopCause,
+    StopReason,
     Task,
     Transition,
 )
+from phframe.core.explored_tree import ROOT
 from phframe.planners.ooa import OOA
-from phframe.pushing import ClearingOptions, Deviation, PushDecision
+from phframe.pushing import ClearingOptions, Deviation, PushDecision, PushProblem, PushSearch
 from phframe.topology.single_linkage import SingleLinkage
 from tests.pushing.parts import ARM, RETRIEVE, rejections, scene_of
 
@@ -152,6 +155,35 @@ def test_of_several_penalties_a_spill_is_less_than_a_stall_and_that_less_than_no
     assert found.actions[0] == tried[taken]
 
 
+@pytest.mark.parametrize(
+    ("made", "closed"),
+    [
+        (Motion(1.0, stalled=True, largest_force=31.4), "stalled at 31 N"),
+        (Motion(1.0, stopped=StopReason(StopCause.WALL, "back wall")), "contact with the back wall"),
+        (Condition.TOPPLED, "something toppled or spilled"),
+        (Condition.SPILLED, "something toppled or spilled"),
+    ],
+    ids=["stalled", "stopped", "toppled", "spilled"],
+)
+def test_the_tree_tells_what_was_wrong_with_a_push_that_was_not_taken(made: Motion | Condition, closed: str) -> None:
+    tried: list[Action] = []
+
+    def answer(state: State, action: Action) -> Transition:
+        tried.append(action)
+        done = aside(state, action)
+        if len(tried) > 1:
+            return done
+        if isinstance(made, Motion):
+            return replace(done, motion=made)
+        return replace(done, state=replace(done.state, conditions=(Condition.UPRIGHT, made)))
+
+    found = plan(BLOCKED, answer)
+    assert found.tree is not None
+    by_action = {node.action: node.closed for node in found.tree.nodes}
+    assert (by_action[tried[0]], by_action[tried[1]]) == (closed, "")
+    assert found.actions[0] == tried[1]
+
+
 def test_a_target_that_is_pushed_off_the_board_ends_it() -> None:
     gone = replace(BLOCKED.initial_state(), conditions=(Condition.SPILLED, Condition.UPRIGHT))
     found = plan(BLOCKED, lambda state, action: Transition(gone, Motion(1.0)))
@@ -218,5 +250,18 @@ def test_rejected_pushes_are_not_proposed_again_until_none_is_left() -> None:
 def test_pushes_that_take_nothing_out_of_the_corridor_are_given_up_after_a_while() -> None:
     found = plan(BLOCKED, lambda state, action: Transition(moved(state, 1, (0.002, 0.0)), Motion(1.0)), patience=3)
     assert found.status is Status.FAILED
-    assert 3 <= len(found.actions) <= 4
-    assert "took nothing out of the corridor" in found.reason
+    assert len(found.actions) == 4, "the first one met fewer than there are objects in the scene"
+    assert found.reason == "the last 3 pushes took nothing out of the corridor"
+
+
+def test_a_search_gives_up_a_node_where_pushes_took_nothing_out_and_where_there_are_enough() -> None:
+    task = task_of(BLOCKED, lambda state, action: Transition(moved(state, 1, (0.002, 0.0)), Motion(1.0)))
+    search, node, told = PushSearch(task, ClearingOptions(patience=2, max_actions=3)), ROOT, []
+    for _ in range(4):
+        problem = search.next_step(node)
+        assert isinstance(problem, PushProblem)
+        told.append(search.hopeless(node, problem))
+        proposals = search.pushing.pushes(problem, search.pushing.diagram(problem), 0.1)
+        node = search.try_push(node, *next(proposals))
+    given_up = "the last 2 pushes took nothing out of the corridor"
+    assert told == ["", "", given_up, "the corridor is not empty after 3 actions"]

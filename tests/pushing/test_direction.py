@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
+from hypothesis import strategies as st
 
 from phframe.core import Shelf
 from phframe.geometry.arm_view import ArmView
@@ -12,7 +13,7 @@ from phframe.pushing import Corridor, Deviation, PushingOptions
 from phframe.pushing.sweep_generator import SweepGenerator
 from phframe.pushing.tilted_sweep import Push
 from tests.pushing.parts import ARM, HALF_WIDTH, RADIUS, often
-from tests.pushing.sweep_cases import Case, cases
+from tests.pushing.sweep_cases import Case, cases, millimetres
 
 TARGET = (0.45, 0.3)
 WIDE = Shelf(0.6, 0.6)
@@ -48,6 +49,22 @@ def test_on_the_line_the_middle_of_the_shelf_decides(width: float, direction: in
     assert (push.sweep.direction, push.deviations) == (direction, ())
 
 
+@pytest.mark.parametrize(("depth", "direction"), [(1.0, -1), (1.2, 1)])
+def test_in_an_angled_corridor_the_middle_of_the_shelf_is_where_it_is_in_its_frame(
+    depth: float, direction: int
+) -> None:
+    """At 0.3 rad the middle of a shelf 0.6 m wide is at y = 0.3 cos 0.3 - depth/2 sin 0.3 there: 0.139 or 0.109 m."""
+    shelf = Shelf(depth, 0.6)
+    corridor = Corridor(np.zeros(2), 0.3, 0.12, HALF_WIDTH, 0.0, 0.5, "north")
+    for mirror in (1, -1):
+        if mirror == -1:
+            corridor = Corridor(np.array([0.0, 0.6]), -0.3, -0.12, HALF_WIDTH, 0.0, 0.5, "south")
+        members = np.array([[0.3, corridor.axis]])
+        view = ArmView(shelf, ARM.closed, 0.002)
+        pushes = [*SweepGenerator(corridor, members, RADIUS, RADIUS, view, PushingOptions()).pushes()]
+        assert {push.sweep.direction for push in pushes if not OTHER & {*push.deviations}} == {mirror * direction}
+
+
 def spanning(y: float, *more: tuple[float, float]) -> Case:
     """A rectangle that reaches from edge to edge of a corridor that is at the south wall but for 2 cm."""
     members = np.array([(0.2, y - 0.095), (0.2, y + 0.095), *more])
@@ -72,6 +89,27 @@ def test_else_what_spans_the_corridor_is_swept_from_the_nearer_wall() -> None:
     assert Deviation.SPANS_CORRIDOR in push.deviations
     narrower = Case(WIDE, (0.45, 0.14), np.array([[0.2, 0.06], [0.2, 0.21]]))
     assert OTHER & {*first(narrower).deviations} == {Deviation.OTHER_DIRECTION}
+
+
+off_limits = st.integers(70, 110).map(lambda number: number / 1000.0 + 0.0005)
+"""Distances from the centre line, none of them where a rectangle just spans the corridor."""
+
+
+@often
+@given(millimetres(0.15, 0.45), off_limits, off_limits, st.tuples(millimetres(0.05, 0.4), millimetres(0.05, 0.4)))
+def test_the_other_direction_is_said_to_be_from_the_nearer_wall_where_it_is_and_the_corridor_is_spanned(
+    y: float, south: float, north: float, depths: tuple[float, float]
+) -> None:
+    """Spanned: on either side there is no room for one more radius in the corridor."""
+    assume(y - south >= RADIUS and y + north <= WIDE.width - RADIUS and abs(south - north) > 1e-9)
+    case = Case(WIDE, (0.5, y), np.array([[depths[0], y - south], [depths[1], y + north]]))
+    center = y + (north - south) / 2.0
+    assume(abs(center - WIDE.width / 2.0) > 1e-9)
+    other, from_nearer = -1 if north > south else 1, 1 if center < WIDE.width / 2.0 else -1
+    spans = min(south, north) > HALF_WIDTH - RADIUS
+    name = Deviation.SPANS_CORRIDOR if spans and other == from_nearer else Deviation.OTHER_DIRECTION
+    for push in case.pushes:
+        assert OTHER & {*push.deviations} == ({name} if push.sweep.direction == other else set())
 
 
 def test_where_there_is_no_room_at_the_wall_the_other_direction_is_taken() -> None:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from phframe.core import Condition, Infeasible
+from phframe.core import Condition, Infeasible, Shelf
 from phframe.pushing import WIDE_FAN, Grasp, corridor_at, drives, find_corridor
 from phframe.pushing.fan import SAME_ANGLE
 from tests.pushing.parts import mirrored, often, places, scene_of, shelves
@@ -97,6 +97,20 @@ def test_the_paper_s_corridor_comes_first_and_no_angle_twice() -> None:
         assert (apart[~np.eye(len(found), dtype=bool)] >= SAME_ANGLE).all()
         straight = abs(paper.corridor.angle) < SAME_ANGLE
         assert len(found) == len(WIDE_FAN) + (not straight)
+
+
+def test_where_the_paper_has_no_corridor_the_fan_has_its_drives() -> None:
+    """The shelf is narrower than the paper's corridor."""
+    with bench(scene_of((0.3, 0.1), shelf=Shelf(depth=0.6, width=0.2)), half_width=0.12) as made:
+        assert isinstance(made.pushing.problem(made.task.start), Infeasible)
+        assert [drive.angle for drive in made.drives(*WIDE_FAN)] == list(WIDE_FAN)
+
+
+def test_an_angle_at_which_the_gripper_would_not_go_in_is_left_out() -> None:
+    straight, steep, aside = 0.0, math.acos(0.21), math.acos(0.19)
+    with bench(BLOCKED) as made:
+        found = made.drives(straight, steep, -steep, aside, -aside, math.pi)
+    assert [drive.angle for drive in found] == [straight, steep, -steep]
 
 
 def test_each_drive_has_a_grasp_at_its_angle_or_says_what_blocks_it() -> None:

@@ -317,3 +317,15 @@ def test_a_withdrawal_between_the_walls_keeps_arm_and_target_between_them(scene:
         assert others >= -1e-5
     elif min(arm, target) > 1e-9:
         assert others < 1e-3
+
+
+@pytest.mark.parametrize(("apart", "withdraws"), [(0.0, True), (-2e-6, False)])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_what_the_arm_passes_over_is_met_by_the_target_that_is_drawn_out_only_where_it_is_more_than_touched(
+    apart: float, withdraws: bool, side: float
+) -> None:
+    scene = scene_of((0.45, 0.3), (0.2, 0.3 + side * (2.0 * RADIUS + apart)))
+    flat = replace(scene, objects=(scene.objects[0], replace(scene.objects[1], shape=Cylinder(RADIUS, 0.01))))
+    found = planned(flat)
+    assert isinstance(found, Grasp)
+    assert found.withdraws_between_walls is withdraws

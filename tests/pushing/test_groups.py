@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from phframe.core import Infeasible
@@ -47,6 +47,20 @@ def test_each_group_is_there_once_and_holds_what_is_closest(places: list[tuple[f
         nearest = first_alone(problem)
         assert all(nearest in members(group) for group in groups)
         assert (nearest,) in {members(group) for group in groups}, "the closest object alone is one of them"
+
+
+@often
+@given(obstacles)
+@example([(0.1, 0.3), (0.162, 0.3), (0.237, 0.3), (0.307, 0.3)])  # closer than the threshold, and not alike
+def test_groups_are_made_at_usable_radii_the_threshold_and_where_all_are_one(places: list[tuple[float, float]]) -> None:
+    with bench(scene_of((0.5, 0.3), *places)) as made:
+        problem = problem_of(made)
+        if problem is None:
+            return
+        diagram, groups = made.pushing.diagram(problem), closest_groups(made.pushing, problem, "homology", "all")
+        all_one = max(diagram.finite_deaths.tolist(), default=0.0)
+        allowed = {*made.pushing.radii(diagram), made.pushing.threshold, all_one}
+        assert {group.radius for group in groups if group.radius} <= allowed
 
 
 @often

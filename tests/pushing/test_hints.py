@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from phframe.core import DocumentError, InputError
-from phframe.pushing.hints import read_hints
+from phframe.pushing.hints import HintOption, read_hints
 
 GOOD = """# in order
 - object: object_3
@@ -29,6 +29,13 @@ def test_hints_are_read_in_order_with_where_they_are(tmp_path: Path) -> None:
         {"object": "4", "to": [1, 2], "where": f"{path}: line 4"},
     ]
     assert read_hints(written(tmp_path, "[]")) == []
+
+
+def test_where_a_hint_was_written_is_not_stored() -> None:
+    assert HintOption(object="a", to=(0.1, 0.2), where="x.yaml: line 2").model_dump() == {
+        "object": "a",
+        "to": (0.1, 0.2),
+    }
 
 
 BAD: dict[str, tuple[str, list[str]]] = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from phframe.core import Condition, Cylinder, Infeasible, Scene
+from phframe.core import Condition, Cylinder, FloatArray, Infeasible, Scene
 from phframe.pushing import Pushing, PushingOptions, PushProblem
 from phframe.testing import simulated_tasks
-from tests.pushing.parts import in_strip, mirrored, often, scene_of
+from tests.pushing.parts import RADIUS, in_strip, mirrored, often, scene_of
 
 SCENE = scene_of((0.45, 0.3), (0.2, 0.3), (0.3, 0.4), (0.3, 0.5), (0.5, 0.36))
 tasks = simulated_tasks()
@@ -102,3 +103,29 @@ def test_decisions_say_what_was_seen_and_rejected_actions_are_left_out() -> None
 def test_the_mirrored_scene_has_the_same_members() -> None:
     other = mirrored(SCENE)
     assert names(pushing(other).problem(other.initial_state()), other) == ["o0", "o1"]
+
+
+class Bar(Cylinder):
+    """Stands for two points, 5 cm to one side of its centre and 4 cm to the other."""
+
+    __slots__ = ()
+
+    @property
+    def landmarks(self) -> FloatArray:
+        return np.array([[-0.05, 0.0], [0.04, 0.0]])
+
+
+@pytest.mark.parametrize("target", [(0.45, 0.3), (0.45, 0.53), (0.45, 0.07)], ids=["straight", "north", "south"])
+def test_objects_are_grouped_by_their_landmarks_turned_as_they_stand(target: tuple[float, float]) -> None:
+    """One bar across the mouth, the other pointing at its middle: their points are 5 cm by 5 or 4 cm apart."""
+    plain = scene_of(target, (0.2, 0.3), (0.3, 0.3))
+    across = replace(plain.objects[1], shape=Bar(RADIUS), yaw=math.pi / 2.0)
+    scene = replace(plain, objects=(plain.objects[0], across, replace(plain.objects[2], shape=Bar(RADIUS))))
+    made = pushing(scene)
+    problem = made.problem(scene.initial_state(), ("o0", "o1"))
+    assert isinstance(problem, PushProblem)
+    assert (problem.corridor.angle == 0.0) is (target[1] == 0.3)
+    near = math.hypot(0.05, 0.04)
+    assert made.diagram(problem).finite_deaths.tolist() == pytest.approx([near, math.hypot(0.05, 0.05), 0.09])
+    labels = [made.components(problem, radius).tolist() for radius in (near - 0.002, near + 0.002)]
+    assert labels == [[0, 1], [0, 0]]

@@ -88,6 +88,23 @@ def test_less_deep_grasps_take_the_place_of_those_that_are_too_deep() -> None:
         assert straight.action.path.poses[1].tolist() == pytest.approx([0.454, 0.3, 0.0])
 
 
+@pytest.mark.parametrize(
+    ("arm", "asked", "rejected"),
+    [
+        (Arm(math.radians(-10.0)), -15, {-15}),  # at no depth: up to 5.5 degrees beside it
+        (Arm(deepest=0.458), 0, {-15, 0, 15}),  # not as deep: up to 15.5 degrees beside it
+    ],
+    ids=["at no depth", "not as deep"],
+)
+def test_what_is_known_of_one_yaw_holds_for_those_beside_it(arm: Arm, asked: int, rejected: set[int]) -> None:
+    with reach_of(arm, crowd=False) as (reach, found, start):
+        by_degrees = {round(math.degrees(drive.angle)): (drive, action) for drive, action in graspable(found)}
+        assert {-30, -15, 0, 15, 30} <= set(by_degrees)
+        reach.ask(start, *by_degrees[asked])
+        rejects = reach.rejects(start)
+        assert {degrees for degrees, (_, action) in by_degrees.items() if rejects(action) is not None} == rejected
+
+
 def test_it_asks_in_a_shelf_without_obstacles_and_each_question_once() -> None:
     arm = Arm(0.0)
     with reach_of(arm) as (reach, found, start):

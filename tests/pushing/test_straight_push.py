@@ -14,7 +14,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from phframe.bench.meters.tasks import retrieval_task
-from phframe.core import Action, Condition, FloatArray, Infeasible, Phase, Scene
+from phframe.core import Action, Condition, FloatArray, Infeasible, InputError, Phase, Scene
 from phframe.pushing import Pushing, StraightDrive, StraightPusher, StraightPushOptions, straight_drive
 from phframe.pushing.straight_push import outside_shelf
 from phframe.runtime.planning_world import PlanningWorld
@@ -144,3 +144,10 @@ def test_what_stands_at_a_wall_cannot_be_pushed_off_it() -> None:
 def test_the_figures_in_common_with_the_papers_method_are_handed_on() -> None:
     options = StraightPushOptions(half_width=0.1, withdrawal=0.2, reach_speed=0.1)
     assert (options.pushing.half_width, options.pushing.withdrawal, options.pushing.reach_speed) == (0.1, 0.2, 0.1)
+
+
+@pytest.mark.parametrize("half_width", [0.0, 1.1])
+def test_a_corridor_of_no_width_or_wider_than_two_metres_is_refused(half_width: float) -> None:
+    assert StraightPushOptions(half_width=1.0).half_width == 1.0
+    with pytest.raises(InputError, match="half_width"):
+        StraightPushOptions.parse({"half_width": half_width}, "mine")

@@ -7,10 +7,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from phframe.core import FloatArray, Outline, Shelf
+from phframe.core.gripper_path import LEAST_AHEAD
 from phframe.pushing import Deviation, PushingOptions
 from phframe.pushing.sweep_generator import TILTS
 from phframe.pushing.tilted_sweep import Direction, Push
@@ -94,10 +95,23 @@ def test_the_fingertip_sweeps_no_nearer_to_the_target_than_1_2_radii(case: Case)
 def test_the_sweep_goes_in_its_direction_and_reaches_the_nearest_member(case: Case) -> None:
     for push in case.pushes:
         sweep = push.sweep
-        assert (sweep.end - sweep.lane) * sweep.direction > 0.0
+        assert (sweep.end - sweep.lane) * sweep.direction >= 1e-3
         assert case.local[:, 0].min() - 0.9 * RADIUS < sweep.depth <= case.local[:, 0].max() + 1e-12
         assert sweep.tilt in TILTS
         assert (Deviation.TILTED in push.deviations) is (sweep.tilt != 0.0)
+
+
+@pytest.mark.parametrize(
+    ("shelf", "target", "members", "direction", "degrees"),
+    [
+        (Shelf(0.548, 0.417), (0.293, 0.034), [[0.343, 0.049]], -1, 0.0),
+        (Shelf(0.461, 0.464), (0.378, 0.338), [[0.398, 0.218], [0.37, 0.314]], -1, 30.0),
+    ],
+)
+def test_a_sweep_that_would_end_where_it_begins_or_before_is_not_proposed(
+    shelf: Shelf, target: tuple[float, float], members: list[list[float]], direction: Direction, degrees: float
+) -> None:
+    assert Case(shelf, target, np.array(members)).fitted(direction, math.radians(degrees)) is None
 
 
 @often
@@ -172,6 +186,7 @@ def test_what_is_not_clamped_is_the_papers_sweep(case: Case) -> None:
 
 @often
 @given(anything)
+@example(Case(Shelf(0.58, 0.504), (0.293, 0.158), np.array([[0.054, 0.299], [0.408, 0.045], [0.358, 0.221]])))
 def test_at_most_two_are_proposed_in_each_direction_and_those_that_clear_come_first(case: Case) -> None:
     pushes = case.pushes
     clears = [push.clears for push in pushes]
@@ -210,6 +225,13 @@ def test_a_sweep_up_to_the_margin_fits_on_both_sides() -> None:
     assert [push is not None for push in fitted] == [True, True]
 
 
+def test_however_far_from_the_corridor_the_lane_is_clamped_by_walls_alone() -> None:
+    push = Case(Shelf(0.4, 0.8), (0.3, 0.15), np.array([[0.2, 0.65]])).fitted(-1, 0.0)
+    assert push is not None
+    assert Deviation.LANE_CLAMPED not in push.deviations
+    assert push.sweep.lane == pytest.approx(0.65 + 0.009 + 0.03 + 0.005)
+
+
 def test_the_sweep_of_a_lone_object_in_the_middle() -> None:
     case = Case(Shelf(0.6, 0.6), (0.45, 0.3), np.array([[0.25, 0.32]]))
     (push, *_) = case.pushes
@@ -225,10 +247,12 @@ def test_the_sweep_of_a_lone_object_in_the_middle() -> None:
 @given(anything)
 def test_all_that_clear_are_the_clearing_ones_of_every_way(case: Case) -> None:
     clearing = case.geometry.all_clearing()
-    fitted = [case.fitted(direction, lean * direction) for direction in (1, -1) for lean in TILTS]
+    ways: list[tuple[Direction, float]] = [(way, lean * way) for way in (1, -1) for lean in TILTS]
+    ahead = [(way, tilt) for way, tilt in ways if math.cos(case.corridor.angle + tilt) >= LEAST_AHEAD]
+    fitted = [case.fitted(*way) for way in ahead]
     expected = {push.sweep for push in fitted if push is not None and push.clears}
     assert len(clearing) == len({push.sweep for push in clearing})
-    assert {push.sweep for push in clearing} <= expected
+    assert {push.sweep for push in clearing} == expected
     assert {push.sweep for push in case.pushes if push.clears} <= {push.sweep for push in clearing}
     assert all(push.clears for push in clearing)
     rams = [push.rams for push in clearing]
@@ -242,6 +266,26 @@ def test_all_that_clear_are_the_clearing_ones_of_every_way(case: Case) -> None:
 
 
 @often
+@given(anything, st.sampled_from([0.0, 10.0, 15.0, 20.0, 30.0]))
+def test_no_tilt_is_greater_than_allowed_and_one_just_as_great_is(case: Case, degrees: float) -> None:
+    allowed = PushingOptions(max_tilt=math.radians(degrees))
+    within = [push for push in case.geometry.all_clearing() if abs(push.sweep.tilt) <= math.radians(degrees) + 1e-6]
+    assert case.generator(allowed).all_clearing() == within
+
+
+@often
+@given(anything)
+def test_where_there_is_no_room_outside_the_corridor_no_tilt_is_tried_in_vain(case: Case) -> None:
+    corridor, depths = case.corridor, case.local[:, 0]
+    for push in case.pushes:
+        if push.sweep.tilt != 0.0:
+            edge = np.full(len(depths), corridor.axis + push.sweep.direction * HALF_WIDTH)
+            across = corridor.to_shelf(np.column_stack([depths, edge]))[:, 1]
+            assert across.min() > RADIUS
+            assert across.max() < case.shelf.width - RADIUS
+
+
+@often
 @given(anything)
 def test_the_clearance_is_the_least_distance_from_walls_and_target(case: Case) -> None:
     target = np.array([case.target])
@@ -252,6 +296,18 @@ def test_the_clearance_is_the_least_distance_from_walls_and_target(case: Case) -
         clearance = case.geometry.clearance(push)
         assert clearance <= min(walls, beside) + 1e-9
         assert clearance >= min(walls, beside) - 0.02, "no more than between two samples"
+
+
+def test_a_lone_object_in_the_middle_has_all_six_neighbours_and_at_the_greatest_tilt_five() -> None:
+    generator = Case(Shelf(0.6, 0.6), (0.45, 0.3), np.array([[0.25, 0.32]])).geometry
+    steps = [(-RADIUS / 2.0, 0.0, 0.0), (RADIUS / 2.0, 0.0, 0.0), (0.0, -RADIUS / 2.0, 0.0), (0.0, RADIUS / 2.0, 0.0)]
+    north = [push for push in generator.all_clearing() if push.sweep.direction == 1]
+    for degrees, turned in ((0.0, (-10.0, 10.0)), (30.0, (-10.0,))):
+        push = next(push for push in north if push.sweep.tilt == pytest.approx(math.radians(degrees)))
+        sweep, found = push.sweep, [each.sweep for each in generator.neighbours(push)]
+        changes = [(each.depth - sweep.depth, each.lane - sweep.lane, each.tilt - sweep.tilt) for each in found]
+        expected = [*steps, *[(0.0, 0.0, math.radians(degrees)) for degrees in turned]]
+        np.testing.assert_allclose(sorted(np.round(changes, 9).tolist()), sorted(expected), atol=1e-8)
 
 
 @often
@@ -269,6 +325,10 @@ def test_neighbours_keep_the_rules_of_a_sweep(case: Case) -> None:
             assert nearest(case, each) < RADIUS + 1e-4
             changed = (each.sweep.depth != push.sweep.depth) + (each.sweep.tilt != push.sweep.tilt)
             assert changed <= 1
+            deeper, aside = each.sweep.depth - push.sweep.depth, each.sweep.lane - push.sweep.lane
+            assert deeper == 0.0 or abs(deeper) == pytest.approx(RADIUS / 2.0)
+            if not changed and Deviation.LANE_CLAMPED not in each.deviations:
+                assert abs(aside) == pytest.approx(RADIUS / 2.0)
             for pose in fingertip_poses(case, each):
                 assert gap_to_walls(ARM.closed, pose, case.shelf) >= PushingOptions().wall_clearance - 1e-6
         if Deviation.LANE_SHIFTED not in push.deviations:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from phframe.core import ActionKind, Condition, Episode, Loop, Phase, Status
+from phframe.core import ActionKind, Condition, Episode, Loop, Phase, Plan, RunSpec, Status, Task
+from phframe.registry import Kind, create
+from phframe.runtime.episode import run_episode
 from phframe.runtime.execution_world import ExecutionWorld
+from phframe.runtime.planning_world import PlanningWorld
 from phframe.runtime.scenes import find_scene
 from phframe.runtime.solve import solve
 from phframe.runtime.world import WorldSpec
@@ -51,6 +54,7 @@ def test_an_object_that_is_not_where_it_was_expected_calls_for_a_replan() -> Non
     assert episode.replans == 1
     assert [step.plan for step in episode.steps[:2]] == [0, 1]
     assert planner.tasks[1].start == episode.steps[0].after == episode.steps[1].before
+    assert planner.tasks[1].rejected == (), "something moved: the action is not to blame"
     moved = episode.steps[0].after.displacement(episode.plans[0].expected[0])
     assert moved[BASIC.index(name)] == pytest.approx(0.011, abs=2e-3)
     assert episode.status is Status.RETRIEVED
@@ -180,8 +184,36 @@ def test_the_limit_on_simulations_is_for_all_planning_together() -> None:
     assert first.budget.simulations == 50
     assert second.budget.simulations == 50 - first.cost.simulated_actions
     enough = first.cost.simulated_actions
-    short = run(Meddling(SPEC, {1: shifted(name, (0.0, 0.02))}), loop=Loop(simulations=enough))
+    planner = Noting()
+    short = run(Meddling(SPEC, {1: shifted(name, (0.0, 0.02))}), planner, loop=Loop(simulations=enough))
     assert (short.status, short.replans, len(short.steps)) == (Status.TIMEOUT, 1, 1)
+    assert [task.budget.simulations for task in planner.tasks] == [enough, 0]
+
+
+def test_a_replan_knows_what_the_last_plan_had_tried_from_where_that_had_got_to() -> None:
+    planner, name = Noting(), first_target_of(USUAL)
+    meddle = {number: shifted(name, (0.0, 0.011 * (-1) ** number)) for number in (1, 3)}
+    episode = run(Meddling(SPEC, meddle), planner)
+    carried_out = [sum(step.plan == number for step in episode.steps) for number in range(len(episode.plans))]
+    assert carried_out[:2] == [1, 2]
+    assert episode.replans >= 2
+    earlier = [plan.tree.after(count) for plan, count in zip(episode.plans, carried_out, strict=True) if plan.tree]
+    assert [task.earlier for task in planner.tasks] == [None, *earlier[:-1]]
+
+
+def test_motion_planning_counts_in_the_plan_it_was_for_and_in_the_episode() -> None:
+    class Slow(Noting):
+        def search(self, task: Task) -> Plan:
+            plan = super().search(task)
+            world.motion_planning_time += 1000.0
+            return plan
+
+    name, goal = first_target_of(USUAL), create(Kind.GOAL, "retrieve")
+    with Meddling(SPEC, {1: shifted(name, (0.0, 0.02))}) as execution, PlanningWorld(SPEC) as world:
+        world.motion_planning_time, execution.motion_planning_time = 8000.0, 16000.0
+        episode = run_episode(Slow(), create(Kind.TOPOLOGY, "ripser"), world, execution, goal, RunSpec())
+    assert [round(plan.cost.motion_planning / 1000.0) for plan in episode.plans] == [1, 1]
+    assert episode.motion_planning_time == 16000.0 + 8000.0 + 2 * 1000.0
 
 
 def test_every_replan_has_chance_of_its_own_and_the_same_for_the_same_seed() -> None:

@@ -13,7 +13,9 @@ def test_they_are_the_upper_triangle_row_by_row_as_float32() -> None:
     assert distances.dtype == np.float32
 
 
-@pytest.mark.parametrize("points", [np.zeros(2), np.zeros((2, 3)), np.zeros((2, 2, 2))], ids=lambda p: str(p.shape))
+@pytest.mark.parametrize(
+    "points", [np.zeros(2), np.zeros((2, 1)), np.zeros((2, 3)), np.zeros((2, 2, 2))], ids=lambda p: str(p.shape)
+)
 def test_a_wrong_shape_is_refused(points: np.ndarray) -> None:
     with pytest.raises(InputError, match=r"must have the shape \(n, 2\)"):
         pairwise_distances(points)
