@@ -82,6 +82,7 @@ class NewFile:
             if self._before is not None:
                 _take_after(self.part, self._before)
             if self._overwrite:
+                _refuse_changed(self._place)
                 self.part.replace(self._place)
             else:
                 _move_to_free(self.part, self._place)
@@ -265,6 +266,13 @@ def _replaceable(path: Path, overwrite: bool) -> os.stat_result | None:
         raise _there(path)
     _check_allowed(path)
     return status
+
+
+def _refuse_changed(place: Path) -> None:
+    """See that nobody has put a link, a pipe or a device where a file was, or nothing, when its writing began."""
+    with suppress(FileNotFoundError):
+        if not stat.S_ISREG(place.lstat().st_mode):
+            raise InputError(f"cannot write {path_shown(place)}: what is there now is no regular file")
 
 
 def _there(path: Path) -> ThereAlreadyError:

@@ -321,3 +321,21 @@ def test_a_tilde_is_the_home(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) ->
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setenv("USERPROFILE", str(tmp_path))
     assert user_path("~/x") == tmp_path / "x"
+
+
+@posix
+@pytest.mark.parametrize("before", ["file", "nothing"])
+def test_a_link_or_a_pipe_that_is_put_there_while_a_file_is_written_stays(before: str, tmp_path: Path) -> None:
+    for put in (lambda path: path.symlink_to(tmp_path / "elsewhere"), os.mkfifo):
+        path = tmp_path / "place"
+        if before == "file":
+            path.write_text("before")
+        with NewFile(path) as file:
+            path.unlink(missing_ok=True)
+            put(path)
+            status = path.lstat()
+            with pytest.raises(InputError, match="what is there now is no regular file"):
+                file.put()
+        assert path.lstat().st_ino == status.st_ino
+        path.unlink()
+        assert left(tmp_path) == []

@@ -37,7 +37,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="links, pipes an
 NAMES = st.sampled_from(("a", "b", "c", "d/a", "d/b", "d/e/a", "d", "a/x"))
 CONTENTS = st.sampled_from(("", "text", "longer text\n" * 50, "é"))
 MODES = st.sampled_from((0o600, 0o640, 0o644, 0o755, 0o400))
-Tree = dict[str, tuple[object, ...]]
+Tree = dict[str, tuple[int, int, object]]
 
 
 def tree(folder: Path) -> Tree:
@@ -65,6 +65,7 @@ class FilesInAnyOrder(RuleBasedStateMachine):
         self.place = Path(self.stack.enter_context(tempfile.TemporaryDirectory())).resolve() / "place"
         self.place.mkdir()
         self.open: list[tuple[NewFile, bytes]] = []
+        self.begun: set[str] = set()
 
     def teardown(self) -> None:
         for file, _ in self.open:
@@ -152,17 +153,20 @@ class FilesInAnyOrder(RuleBasedStateMachine):
             with suppress(FileNotFoundError):
                 file.part.write_text(content)
             self.open.append((file, content.encode()))
+            self.begun.add(file.part.name)
 
     @precondition(lambda self: self.open)
     @rule(number=st.integers(0, 3))
     def put(self, number: int) -> None:
         file, content = self.open.pop(number % len(self.open))
-        before, there = tree(self.place), file.path.exists()
+        place, before = file._place, tree(self.place)
+        was = place.lstat().st_mode if place.exists() or place.is_symlink() else None
         part = str(file.part.relative_to(self.place)) if file.part.is_relative_to(self.place) else ""
         if self._asked(file.put):
-            if not file.path.is_fifo():
-                assert file.path.read_bytes() == content
-                assert file._overwrite or not there, "nothing is overwritten unasked"
+            assert not file.part.exists()
+            if not file._into:
+                assert place.read_bytes() == content
+                assert was is None or (file._overwrite and stat.S_ISREG(was)), "nothing else is replaced, nor unasked"
         else:
             before.pop(part, None)
             assert tree(self.place) == before
@@ -182,7 +186,7 @@ class FilesInAnyOrder(RuleBasedStateMachine):
                 each: (path / each).read_text() for each in files if not (path / each).is_fifo()
             }.items() <= files.items()
         elif was:
-            self._only_folders_are_new(before)
+            self._each_is_old_or_whole(before, {content.encode() for content in files.values()})
         else:
             assert tree(self.place) == before or not possible
 
@@ -196,8 +200,8 @@ class FilesInAnyOrder(RuleBasedStateMachine):
 
     @invariant()
     def nothing_half_is_left(self) -> None:
-        known = {file.part for file, _ in self.open}
-        assert set(self.place.rglob("*.part")) <= known
+        """But for what is being written: somebody may have moved that."""
+        assert {path.name for path in self.place.rglob("*.part")} <= self.begun
 
     def _asked(self, do: Callable[[], object]) -> bool:
         """Whether it was done; what is not done is told in a line."""
@@ -223,6 +227,15 @@ class FilesInAnyOrder(RuleBasedStateMachine):
             assert had is None or (overwrite and had[1] == mode and had[0] == stat.S_IFREG)
         assert {name: each for name, each in after.items() if name in before} == before
         assert all(each[0] == stat.S_IFDIR for name, each in after.items() if name not in before)
+
+    def _each_is_old_or_whole(self, before: Tree, contents: set[bytes]) -> None:
+        """See that of files that are put one by one none is half there, and none is gone."""
+        after = tree(self.place)
+        assert before.keys() <= after.keys()
+        for name, (kind, _, held) in after.items():
+            assert (
+                after[name] == before.get(name) or kind == stat.S_IFDIR or (kind == stat.S_IFREG and held in contents)
+            )
 
     def _only_folders_are_new(self, before: Tree) -> None:
         self._changed(before, {}, overwrite=False)
