@@ -14,6 +14,6 @@ if __name__ == "__main__":
     else:
         del sys.path[0]
 
-    from phframe.cli.main import main
+    from phframe.cli.entry import main
 
     main()

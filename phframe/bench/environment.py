@@ -12,6 +12,7 @@ from pydantic import ConfigDict, TypeAdapter, ValidationError
 
 from phframe.core import InputError, Value
 from phframe.core.run_spec import first_fault
+from phframe.core.stored_json import parse_json
 
 _ID_LENGTH = 16
 
@@ -57,7 +58,7 @@ class Environment(Value):
             InputError: If it is none.
         """
         try:
-            return _ENVIRONMENT.validate_python(json.loads(text))
+            return _ENVIRONMENT.validate_python(parse_json(text))
         except ValidationError as error:
             raise InputError(f"this is no environment of a bench: {first_fault(error)}") from None
         except (ValueError, TypeError, RecursionError) as error:

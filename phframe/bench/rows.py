@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, get_type_hints
@@ -32,6 +33,8 @@ DECLARED = ", ".join(f"{name} {_KINDS[_TYPES[name]]}" for name in COLUMNS if nam
 _RESULT = TypeAdapter(TrialResult)
 _OBJECTS = tuple(name for name in COLUMNS if _TYPES[name] == Mapping[str, int])
 """Columns that hold JSON."""
+_FIGURES = tuple(name for name in COLUMNS if _KINDS[_TYPES[name]].startswith("REAL"))
+"""Columns that hold numbers; a file that somebody wrote may have the text ``nan`` there."""
 
 
 def to_row(result: TrialResult) -> tuple[Any, ...]:
@@ -48,11 +51,14 @@ def from_row(row: tuple[Any, ...]) -> TrialResult:
     values = dict(zip(COLUMNS, row, strict=True))
     try:
         values.update({name: json.loads(values[name]) for name in _OBJECTS})
-        return _RESULT.validate_python(values)
+        result = _RESULT.validate_python(values)
     except ValidationError as error:
         raise ValueError(first_fault(error)) from None
     except (TypeError, ValueError, RecursionError) as error:
         raise ValueError(f"{' and '.join(_OBJECTS)}: {error}") from None
+    if strange := [name for name in _FIGURES if math.isnan(getattr(result, name) or 0.0)]:
+        raise ValueError(f"{strange[0]}: it is not a number")
+    return result
 
 
 def _stored(value: Any) -> Any:

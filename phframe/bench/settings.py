@@ -11,6 +11,7 @@ from pydantic import ConfigDict, TypeAdapter, ValidationError
 
 from phframe.core import InputError, Loop, Value
 from phframe.core.run_spec import first_fault
+from phframe.core.stored_json import parse_json
 
 FORMAT = 1
 """Of settings as JSON: what changes the meaning of a field gets a new one."""
@@ -92,10 +93,12 @@ class BenchSettings(Value):
             InputError: If they are none, or of another format.
         """
         try:
-            content = json.loads(text)
+            content = parse_json(text)
             if content.pop("format") != FORMAT:
                 raise ValueError("they are of another format")
-            return _SETTINGS.validate_python(content)
+            settings = _SETTINGS.validate_python(content)
+            settings.to_json()  # refuses numbers that are none, wherever they are
+            return settings
         except ValidationError as error:
             raise InputError(f"these are no settings of a bench: {first_fault(error)}") from None
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:

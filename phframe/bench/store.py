@@ -85,6 +85,8 @@ class ResultStore:
     def is_in(cls, directory: str | Path) -> bool:
         """Whether a directory holds a store, damaged or not. One whose making was cut short is none."""
         path = Path(directory) / FILE
+        if path.exists() and not path.is_file():  # SQLite would wait for a pipe for ever
+            return True
         try:
             with closing(cls(path, _connected(path, read_only=True))) as store:
                 return not store._is_empty
@@ -102,7 +104,8 @@ class ResultStore:
         """
         path = Path(directory) / FILE
         if not path.is_file():
-            raise StoreError(f"{path_shown(directory)} holds no bench: there is no {FILE} in it")
+            why = "is not a regular file" if path.exists() else "is not in it"
+            raise StoreError(f"{path_shown(directory)} holds no bench: {FILE} {why}")
         with _told(path):
             store = cls(path, _connected(path, read_only=read_only))
             try:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import typer
@@ -13,6 +14,16 @@ from phframe.cli import plugin_commands
 from phframe.cli.console import note, results_only
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.failures import report
+
+
+@contextmanager
+def _told_if_interrupted() -> Iterator[None]:
+    """A KeyboardInterrupt as a line and an exit code; the option parser makes of it what it likes otherwise."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        note("interrupted")
+        raise typer.Exit(ExitCode.INTERRUPTED) from None
 
 
 class CommandGroup(TyperGroup):
@@ -29,6 +40,7 @@ class CommandGroup(TyperGroup):
         try:
             result = super().main(args, *rest, **extra)
         except (KeyboardInterrupt, typer.Abort):
+            note("interrupted")
             result = ExitCode.INTERRUPTED
         except SystemExit:
             raise
@@ -36,12 +48,17 @@ class CommandGroup(TyperGroup):
             result = report(error)
         sys.exit(result if isinstance(result, int) else ExitCode.SUCCESS)
 
+    def make_context(self, *args: Any, **extra: Any) -> Any:
+        """Read the command line; say so if that was interrupted."""
+        with _told_if_interrupted():
+            return super().make_context(*args, **extra)
+
     def invoke(self, ctx: Any) -> Any:
         """Run a command; say so if it was interrupted, or if it is a plugin's and went wrong."""
         try:
-            return super().invoke(ctx)
-        except KeyboardInterrupt:
-            note("interrupted")
+            with _told_if_interrupted():
+                return super().invoke(ctx)
+        except typer.Exit:
             raise
         except Exception as error:
             if ctx.invoked_subcommand in self.commands:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 from typing import Annotated
 
 import typer
@@ -13,7 +12,6 @@ from phframe.cli.console import emit, reserve_output
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.export import export
 from phframe.cli.group import CommandGroup, keep_output, show_help
-from phframe.cli.interrupt import ENDING
 from phframe.cli.replay import replay
 from phframe.cli.report import report
 from phframe.cli.scenes import scenes
@@ -60,12 +58,9 @@ def _version() -> str:
 
 
 def main() -> None:
-    """Entry point of the command; ends the process. Being told to terminate is like Ctrl-C: what was recorded is kept."""
+    """Carry out what the command line asks for; ends the process. The command itself begins in ``entry``."""
     reserve_output()
     os.environ.setdefault("PYTHONSAFEPATH", "1")  # processes that are started import nothing from the working directory
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it would ask every distribution for them
-    for name in ENDING:
-        number = getattr(signal, name, None)
-        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
-            signal.signal(number, signal.default_int_handler)
+    os.environ.setdefault("RUST_LOG", "off")  # Rerun would tell of its troubles itself, in colours
     app(prog_name="phframe", obj=SUPERVISED)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from phframe.cli.console import note
@@ -48,28 +49,40 @@ class RunFiles(Observer):
         self._made(path)
         if self._recorder_type is not None:
             self._recorder = self._recorder_type(path / RECORDING)
-            self._recorder.begin(scene, spec, arm)
             self.recording = path / RECORDING
+            self._hand_on(lambda recorder: recorder.begin(scene, spec, arm))
 
     def planned(self, plan: Plan) -> None:
         """Hand it on."""
-        if self._recorder is not None:
-            self._recorder.planned(plan)
+        self._hand_on(lambda recorder: recorder.planned(plan))
 
     def stepped(self, step: Step, frames: Frames) -> None:
         """Hand it on."""
-        if self._recorder is not None:
-            self._recorder.stepped(step, frames)
+        self._hand_on(lambda recorder: recorder.stepped(step, frames))
 
     def finished(self, episode: Episode) -> None:
         """Hand it on."""
-        if self._recorder is not None:
-            self._recorder.finished(episode)
+        self._hand_on(lambda recorder: recorder.finished(episode))
 
     def close(self) -> None:
         """End the recording."""
-        if self._recorder is not None:
-            self._recorder.close()
+        self._hand_on(lambda recorder: recorder.close())
+
+    def _hand_on(self, what: Callable[[Observer], None]) -> None:
+        """Of a recording that fails nothing is left: half of it shows another run, and the episode may need its room."""
+        if self._recorder is None:
+            return
+        try:
+            what(self._recorder)
+        except Exception:
+            recorder, recording = self._recorder, self.recording
+            self._recorder = self.recording = None
+            with suppress(Exception):
+                recorder.close()
+            if recording is not None:
+                with suppress(OSError):
+                    recording.unlink()
+            raise
 
 
 class VideoFile(Observer):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import json
 import os
+import signal
 import sys
 from collections.abc import Callable
 from contextlib import suppress
@@ -16,7 +17,7 @@ import typer
 from phframe.cli.console import note
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.failures import report
-from phframe.cli.interrupt import EndSignals
+from phframe.cli.interrupt import EndSignals, let_signals_through, signals_held_back
 
 SUPERVISED = "supervised"
 """Object of the top context where a command is a process of its own, so that it may fork."""
@@ -33,7 +34,8 @@ class WatchdogLink:
 
     def __init__(self, writer: int | None = None) -> None:
         self._writer, self._limited = writer, False
-        self.signals = EndSignals(self._overdue)
+        self._place: Path | None = None
+        self.signals = EndSignals()
 
     def limit(self, seconds: float | None, what: str = "") -> None:
         """Say how long what begins now may take; None: as long as it likes."""
@@ -42,11 +44,26 @@ class WatchdogLink:
 
     def folder(self, path: Path) -> None:
         """Say where the files of the run are."""
+        self._place = path
         self._tell({"folder": str(path)})
 
     def video(self, path: Path) -> None:
         """Say which video is being made."""
         self._tell({"video": str(path.resolve())})
+
+    @property
+    def interruption(self) -> str:
+        """What is said of a run that is interrupted."""
+        from phframe.cli.watchdog import EPISODE
+
+        kept = self._place is not None and (self._place / EPISODE).exists()
+        return f"interrupted; {f'what was recorded is in {self._place}' if kept else 'nothing was recorded yet'}"
+
+    def listen(self) -> None:
+        """Have signals raise what they are to raise: to end, and that the time is over."""
+        self.signals.install()
+        signal.signal(signal.SIGALRM, lambda number, frame: self._overdue())
+        let_signals_through()
 
     def ended(self, code: int) -> None:
         """Say that all is done and told, and how it went."""
@@ -82,24 +99,27 @@ def supervised(context: typer.Context, work: Callable[[WatchdogLink], int], memo
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
             stream.flush()
-    (reader, writer), parent = os.pipe(), os.getpid()
-    try:
-        child = os.fork()
-    except OSError:  # no process is to be had: without a watchdog, then
-        return work(WatchdogLink())
-    if not child:
-        os.close(reader)
-        _carry_out(work, WatchdogLink(writer), parent)
-    from phframe.cli.watchdog import Watchdog
+    with signals_held_back():  # until both processes are ready for them
+        parent = os.getpid()
+        try:
+            reader, writer = os.pipe()
+            child = os.fork()
+        except OSError:  # no process is to be had: without a watchdog, then
+            child = None
+        if child == 0:
+            os.close(reader)
+            _carry_out(work, WatchdogLink(writer), parent)
+        if child is not None:
+            from phframe.cli.watchdog import Watchdog
 
-    os.close(writer)
-    os.set_blocking(reader, False)
-    return Watchdog(child, reader, memory).wait()
+            os.close(writer)
+            os.set_blocking(reader, False)
+            return Watchdog(child, reader, memory).wait()
+    return work(WatchdogLink())
 
 
 def _carry_out(work: Callable[[WatchdogLink], int], link: WatchdogLink, parent: int) -> NoReturn:
     """Do it, in the child, and end it: taking apart what it has imported would take ten times as long as forking did."""
-    link.signals.install()
     _end_with(parent)
     link.limit(LOADING, "loading")
     code = _code_of(work, link)
@@ -113,9 +133,9 @@ def _carry_out(work: Callable[[WatchdogLink], int], link: WatchdogLink, parent: 
 def _code_of(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
     """What the command ends with, its errors told."""
     try:
-        return work(link)
+        return _done(work, link)
     except (KeyboardInterrupt, typer.Abort):
-        note("interrupted")
+        note(link.interruption)
         return ExitCode.INTERRUPTED
     except typer.Exit as error:
         return error.exit_code
@@ -125,6 +145,15 @@ def _code_of(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
         if sys.stdout is not None:
             with suppress(OSError, ValueError):
                 sys.stdout.flush()
+
+
+def _done(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
+    """What it returns; signals raise nothing before it, and nothing after it."""
+    try:
+        link.listen()
+        return work(link)
+    finally:
+        link.signals.over()
 
 
 def _end_with(parent: int) -> None:

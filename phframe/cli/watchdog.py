@@ -21,7 +21,7 @@ from typing import Any
 
 from phframe.cli.console import note
 from phframe.cli.exit_codes import ExitCode
-from phframe.cli.interrupt import ENDING
+from phframe.cli.interrupt import ENDING, let_signals_through
 from phframe.cli.processes import descendants, memory_of
 
 GRACE = 2.0
@@ -238,6 +238,7 @@ def _signals() -> Iterator[int]:
         if signal.getsignal(number := getattr(signal, name)) is not signal.SIG_IGN:
             signal.signal(number, lambda number, frame: None)
     signal.set_wakeup_fd(writer)
+    let_signals_through()
     try:
         yield reader
     finally:

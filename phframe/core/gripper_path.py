@@ -17,6 +17,8 @@ MOUTH_CLEARANCE = 0.05
 """An arm is out of the shelf when all of it is farther than this (m) before the mouth plane."""
 
 
+MOST_LEGS = 10_000
+"""Of a path: one every tenth of a millimetre, on a way of a metre."""
 LEAST_AHEAD = 0.2
 """Least cosine of an arm's yaw: one turned further from the mouth neither comes in through it nor leaves by it."""
 
@@ -85,8 +87,8 @@ class GripperPath(Value):
         overrides: Rules of single legs, by index, that differ from their phase's: a speed of its own for a leg.
 
     Raises:
-        InputError: If there is no leg, the lengths disagree, a number is not finite, a phase has no rule, or a rule is for
-            a leg that does not exist.
+        InputError: If there is no leg, or too many, the lengths disagree, a number is not finite, a phase has no rule, or a
+            rule is for a leg that does not exist.
     """
 
     poses: Floats
@@ -97,8 +99,8 @@ class GripperPath(Value):
 
     def __post_init__(self) -> None:
         self._freeze("poses")
-        if not self.phases:
-            raise InputError("a gripper path needs at least one leg")
+        if not 0 < len(self.phases) <= MOST_LEGS:
+            raise InputError(f"a gripper path needs at least one leg, and at most {MOST_LEGS}, not {len(self.phases)}")
         if self.poses.shape != (len(self.phases) + 1, 3):
             raise InputError(
                 f"a path of {len(self.phases)} legs needs {len(self.phases) + 1} poses (x, y, yaw), not {self.poses.shape}"

@@ -14,7 +14,9 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, JsonValue, PlainSerializer, PlainValidator, ValidationError
 
 from phframe.core.errors import InputError, OptionError
+from phframe.core.names import name_fault, name_shown
 from phframe.core.scene import Scene
+from phframe.core.stored_json import parse_json
 from phframe.core.stored_name import StoredName
 from phframe.core.value import Value
 from phframe.core.variant import variant_name
@@ -25,6 +27,8 @@ PARTS = ("planner", "backend", "arm", "plan_backend", "plan_arm", "topology", "g
 """The exchangeable parts of a run."""
 OPTION_GROUPS = (*PARTS, "scenes")
 """What has options."""
+_LONGEST = 300
+"""Characters of what is told of a fault."""
 KEY_LENGTH = 32
 """Hexadecimal digits of a key."""
 
@@ -131,7 +135,7 @@ class RunSpec(Value):
             InputError: If it is no such JSON.
         """
         try:
-            return _load(json.loads(text))
+            return _load(parse_json(text))
         except (ValueError, RecursionError) as error:
             raise InputError(f"no run: {error}") from None
 
@@ -202,9 +206,15 @@ AnyRunSpec = Annotated[RunSpec, PlainSerializer(_dump), PlainValidator(_load, js
 
 
 def first_fault(error: ValidationError) -> str:
-    """The first thing that is wrong, and where, in a line."""
-    first = error.errors()[0]
-    return f"{'.'.join(str(step) for step in first['loc'])}: {first['msg']}"
+    """The first thing that is wrong, and where, in a line of bounded length."""
+    first = error.errors(include_url=False)[0]
+    what = " ".join(first["msg"][:_LONGEST].split())
+    return f"{'.'.join(_step_shown(step) for step in first['loc'])}: {what}"
+
+
+def _step_shown(step: int | str) -> str:
+    text = str(step)
+    return text if not name_fault(text) else name_shown(text)
 
 
 def _canonical(value: Any) -> Any:

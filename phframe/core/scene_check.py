@@ -94,14 +94,15 @@ def _bad_names(name: str, objects: Sequence[SceneObject], base_poses: Mapping[st
 def _bad_ids(ids: Sequence[str], target: str) -> Iterator[str]:
     for name, count in Counter(ids).items():
         if count > 1:
-            yield f"the id {name!r} is used {count} times; ids must be unique"
+            yield f"the id {name_shown(name)} is used {count} times; ids must be unique"
     if target not in ids:
         yield f"the target {name_shown(target)} is not among the objects: {_listed(ids)}"
 
 
 def _listed(ids: Sequence[str]) -> str:
     more = len(ids) - MOST_PROBLEMS
-    return (", ".join(ids[:MOST_PROBLEMS]) + (f" and {more} more" if more > 0 else "")) or "there are none"
+    shown = (name_shown(each) if name_fault(each) else each for each in ids[:MOST_PROBLEMS])
+    return (", ".join(shown) + (f" and {more} more" if more > 0 else "")) or "there are none"
 
 
 def _outside(shelf: Shelf, objects: Sequence[SceneObject]) -> Iterator[str]:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
+import errno
+import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -12,8 +15,13 @@ import rerun.blueprint as rrb
 import rerun_bindings
 
 from phframe.core import FloatArray, InputError
+from phframe.core.errors import error_text
 
 APPLICATION = "phframe"
+ROOM = 2**18
+"""More than a recording begins with (bytes): how it is laid out."""
+PATIENCE = 3.0
+"""With a file that does not grow, though something is to be written to it (s)."""
 TIME = "sim_time"
 ACTION = "action"
 
@@ -32,13 +40,9 @@ class Stream:
     """
 
     def __init__(self, path: Path, name: str, blueprint: rrb.Blueprint, properties: Mapping[str, str]) -> None:
-        try:
-            path.open("wb").close()
-        except (OSError, ValueError) as error:
-            why = getattr(error, "strerror", None) or error
-            raise InputError(
-                f"cannot write the recording {path}: {why}. Give a file in a directory that exists."
-            ) from None
+        if (why := _refusal(path, "wb")) is not None:
+            raise InputError(f"cannot write the recording {path}: {why}. Give a file in a directory that exists.")
+        self._path, self._lost = path, False
         self._recording = rr.RecordingStream(APPLICATION)
         self._recording.set_log_time_enabled(False)
         self._recording.set_log_tick_enabled(False)
@@ -66,14 +70,73 @@ class Stream:
         self._recording.send_columns(entity, [times, actions], columns)
 
     def flush(self) -> None:
-        """Have everything so far written to the file."""
-        self._recording.flush()
+        """Have everything so far written to the file.
+
+        Raises:
+            InputError: If it cannot be, as on a full disk.
+        """
+        written = -1
+        while True:
+            try:
+                self._recording.flush(timeout_sec=PATIENCE)
+            except (RuntimeError, ValueError) as error:
+                before, written = written, _size(self._path)
+                if written == before:  # what writes it has ended, and Rerun may wait for it for ever
+                    self._lose()
+                    raise self._failure(error) from None
+            else:
+                return
 
     def close(self) -> None:
-        """Write the rest and end the file, and the threads that wrote it. Nothing can be put after that."""
+        """Write the rest and end the file, and the threads that wrote it. Nothing can be put after that.
+
+        Raises:
+            InputError: If it could not be written.
+        """
+        if self._lost:
+            return
+        self.flush()
         self._recording.disconnect()
         del self._recording
         rerun_bindings.flush_and_cleanup_orphaned_recordings()  # else Rerun keeps the threads of what nobody refers to
+        if not rerun_bindings.check_for_rrd_footer(str(self._path)):
+            raise self._failure(None)
+
+    def _lose(self) -> None:
+        """Leave it as it is, also at the end of the process: Rerun may wait for ever where it lets go of one."""
+        self._lost = True
+        rr.unregister_shutdown()
+        for each in (self._recording, self._recording.to_native()):
+            ctypes.pythonapi.Py_IncRef(ctypes.py_object(each))
+
+    def _failure(self, error: Exception | None) -> InputError:
+        """Rerun says no more than that it stopped writing, if that; the system says why."""
+        why = _refusal(self._path, "ab") or ("its end is missing" if error is None else error_text(error))
+        return InputError(f"cannot write the recording {self._path}: {why}")
+
+
+def _size(path: Path) -> int:
+    try:
+        return path.stat().st_size
+    except OSError:
+        return 0
+
+
+def _refusal(path: Path, mode: str) -> str | None:
+    """Why the system takes no more of a file, which is empty, or as it was, afterwards; None: it takes what Rerun begins with.
+
+    Rerun itself does not come back from the beginning of a file for which there is no room.
+    """
+    try:
+        with path.open(mode, buffering=0) as file:
+            length = file.tell()
+            try:
+                room = file.write(bytes(ROOM))
+            finally:
+                file.truncate(length)
+    except (OSError, ValueError) as error:
+        return f"{getattr(error, 'strerror', None) or error}"
+    return None if room == ROOM else os.strerror(errno.ENOSPC)
 
 
 def _save(recording: rr.RecordingStream, path: Path, blueprint: rrb.Blueprint) -> None:

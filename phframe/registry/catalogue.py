@@ -90,11 +90,9 @@ class Catalogue:
     def _hint(self, kind: Kind, name: str) -> str:
         rivals = [entry.name for entry in self.extensions(kind) if entry.extension.name == name]
         ambiguous = [f"More than one plugin offers it: say which, {' or '.join(rivals)}."] if rivals else []
-        lacking = [
-            f"{entry.name!r} cannot be used yet: {gap.remedy}."
-            for entry in self.extensions(kind)
-            if (gap := missing(entry.distribution, entry.extension.extra))
-        ]
+        needs = {entry.name: (entry.distribution, entry.extension.extra) for entry in self.extensions(kind)}
+        gaps = {each: missing(*each) for each in dict.fromkeys(needs.values())}  # reading what they need takes its time
+        lacking = [f"{name!r} cannot be used yet: {gap.remedy}." for name, each in needs.items() if (gap := gaps[each])]
         return " ".join([*ambiguous, *lacking, *(f"({broken})" for broken in self.broken)])
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from phframe.core.errors import InputError, PluginError, UnknownNameError, error_text
 from phframe.core.paths import user_path
+from phframe.core.regular_file import read_regular_file
 from phframe.registry.foreign import foreign_code
 
 
@@ -54,7 +55,7 @@ def _is_own(value: object, interface: type, module: ModuleType) -> bool:
 def _run(path: Path) -> ModuleType:
     """The file as a module, under a name that no other file, and no other version of it, has."""
     try:
-        source = path.read_bytes()
+        source = read_regular_file(path)
     except OSError as error:
         raise InputError(f"cannot read {path}: {(error.strerror or str(error)).lower()}") from None
     name = f"phframe_file_{sha256(bytes(path.resolve()) + source).hexdigest()[:16]}"

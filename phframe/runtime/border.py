@@ -36,16 +36,19 @@ from phframe.core import (
     Task,
 )
 from phframe.core.errors import BudgetExceededError, error_text
+from phframe.core.gripper_path import MOST_LEGS
 from phframe.core.run_spec import first_fault
 from phframe.core.state import ArmState
 from phframe.registry import Kind
+from phframe.runtime.adapters import adapter_of
 from phframe.runtime.blame import is_own, title_of
-from phframe.runtime.files import adapter_of
 
 GoalT = TypeVar("GoalT", bound=Goal[Any])
 
 LONGEST_TEXT = 2000
 """Characters of a reason or a name that a part gives."""
+MOST_NODES, MOST_ALL_LEGS, MOST_ACTIONS = 100_000, 1_000_000, 1000
+"""Of a plan: nodes of its tree, legs of all paths in that, actions that are to be carried out."""
 _FIGURES = ("duration", "largest_force", "tracking_error", "followed")
 """Of a motion, that are finite and not negative."""
 
@@ -108,13 +111,15 @@ def _checked_plan(plan: Plan, scene: Scene, start: State, title: str) -> Plan:
     """The plan as a file would give it back, of the right types and nobody else's; it begins where the task does."""
     adapter = adapter_of(Plan)
     with _refusing(title):
+        if (problem := _problem_of_size(plan)) is not None:
+            raise refused(title, f"its plan cannot be: {problem}")
         try:
             written = adapter.dump_python(_from_start(plan, start), mode="json", warnings=False)
             json.dumps(written, ensure_ascii=False).encode()  # no text that nobody can write
             checked: Plan = adapter.validate_python(written)
         except ValidationError as error:
             raise refused(title, f"its plan cannot be: {first_fault(error)}") from None
-    if (problem := next(_problems_of_plan(checked, scene), None)) is not None:
+    if (problem := next(problems_of_plan(checked, scene), None)) is not None:
         raise refused(title, f"its plan cannot be: {problem}")
     return replace(checked, cost=plan.cost, reason=checked.reason[:LONGEST_TEXT])
 
@@ -126,20 +131,39 @@ def _from_start(plan: Plan, start: State) -> Plan:
     return replace(plan, tree=replace(plan.tree, nodes=(replace(root, state=start), *rest)))
 
 
-def _problems_of_plan(plan: Plan, scene: Scene) -> Iterator[str]:
+def _problem_of_size(plan: Plan) -> str | None:
+    """Why a plan is more than anybody reads or carries out; it is looked at before it is copied."""
+    if plan.tree is None:
+        return None
+    nodes = plan.tree.nodes
+    if len(nodes) > MOST_NODES:
+        return f"its tree has {len(nodes)} nodes; at most {MOST_NODES} are taken"
+    legs = [len(node.action.path.poses) - 1 for node in nodes if node.action is not None]
+    if (longest := max(legs, default=0)) > MOST_LEGS:
+        return f"a path in its tree has {longest} legs; at most {MOST_LEGS} are taken"
+    if sum(legs) > MOST_ALL_LEGS:
+        return f"the paths in its tree have {sum(legs)} legs; at most {MOST_ALL_LEGS} are taken"
+    return None
+
+
+def problems_of_plan(plan: Plan, scene: Scene) -> Iterator[str]:
+    """Why something is no plan for a scene: states, motions and actions of its tree that cannot be."""
+    if len(plan.actions) > MOST_ACTIONS:
+        yield f"it has {len(plan.actions)} actions; at most {MOST_ACTIONS} are carried out"
     for number, node in enumerate(plan.tree.nodes if plan.tree else ()):
         where = f"node {number} of its tree"
         if (problem := problem_of_state(node.state, scene)) is not None:
             yield f"{where}: {problem}"
         if node.motion is not None and (problem := problem_of_motion(node.motion)) is not None:
             yield f"{where}: {problem}"
-        if node.action is not None and (problem := _problem_of_action(node.action, scene)) is not None:
+        if node.action is not None and (problem := problem_of_action(node.action, scene)) is not None:
             yield f"{where}: {problem}"
         if node.value is not None and math.isnan(node.value):
             yield f"{where} has a value that is not a number"
 
 
-def _problem_of_action(action: Action, scene: Scene) -> str | None:
+def problem_of_action(action: Action, scene: Scene) -> str | None:
+    """Why something is no action in a scene; None: it is one."""
     named = (*action.moves, *(() if action.path.manipuland is None else (action.path.manipuland,)))
     if strange := [name for name in named if name not in scene.ids]:
         return f"the action {action.name[:40]!r} is with {strange[0][:40]!r}, and there is no such object"

@@ -8,18 +8,26 @@ from __future__ import annotations
 import json
 from collections.abc import Collection
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ValidationError
 
 from phframe.core import Episode, InputError, Plan
+from phframe.core.errors import error_text
 from phframe.core.files import write_file
-from phframe.core.paths import user_path
+from phframe.core.paths import path_shown, user_path
+from phframe.core.regular_file import read_regular_file
+from phframe.core.run_spec import first_fault
+from phframe.core.stored_json import parse_json
+from phframe.runtime.adapters import adapter_of
+from phframe.runtime.stored_episode import problem_of_episode
 
 FORMAT = 2
 """Of the files; a file of another one is refused."""
+
+MOST_BYTES = 256 << 20
+"""Of a file that is read."""
 
 _KINDS: dict[str, type[Plan] | type[Episode]] = {"plan": Plan, "episode": Episode}
 
@@ -53,12 +61,6 @@ def content_of(value: Plan | Episode, without: Collection[str] = ()) -> Any:
     )
 
 
-@cache
-def adapter_of(kind: Any) -> TypeAdapter[Any]:
-    """What writes and reads a kind; it takes tenths of a second to make."""
-    return TypeAdapter(kind)
-
-
 def _bounded(value: Plan | Episode) -> Plan | Episode:
     """The same with search trees of no more nodes than a file holds: large ones are summarised."""
     if isinstance(value, Plan):
@@ -74,30 +76,38 @@ def load(path: str | Path) -> Plan | Episode:
     """Read what ``save`` wrote.
 
     Raises:
-        InputError: If the file cannot be read, is of a newer format or is not a plan or an episode.
+        InputError: If the file cannot be read, is of a newer format or is not a plan or an episode, or one that cannot be.
     """
-    source = user_path(path)
+    shown = path_shown(path)
     try:
-        document = json.loads(source.read_text(encoding="utf-8"))
+        document = parse_json(_content(user_path(path), shown))
     except OSError as error:
-        raise InputError(f"cannot read {source}: {error.strerror}") from None
+        raise InputError(f"cannot read {shown}: {error.strerror}") from None
     except (ValueError, RecursionError, OverflowError) as error:
-        raise InputError(f"{source} is not JSON: {error}") from None
-    return _decoded(document, source)
+        raise InputError(f"{shown} is not JSON: {error}") from None
+    decoded = _decoded(document, shown)
+    if isinstance(decoded, Episode) and (problem := problem_of_episode(decoded)) is not None:
+        raise InputError(f"{shown}: {problem}")
+    return decoded
 
 
-def _decoded(document: Any, source: Path) -> Plan | Episode:
+def _content(path: Path, shown: str) -> str:
+    content = read_regular_file(path, MOST_BYTES + 1)
+    if len(content) > MOST_BYTES:
+        raise InputError(f"{shown} is larger than {MOST_BYTES >> 20} MB; that is no plan or episode")
+    return content.decode()
+
+
+def _decoded(document: Any, shown: str) -> Plan | Episode:
     kind = document.get("kind") if isinstance(document, dict) else None
     if not isinstance(kind, str) or kind not in _KINDS:
-        raise InputError(f"{source} is not a phframe plan or episode")
+        raise InputError(f"{shown} is not a phframe plan or episode")
     if type(document.get("phframe")) is not int or document["phframe"] != FORMAT:
-        raise InputError(f"{source} is of format {document.get('phframe')!r}; this phframe reads format {FORMAT}")
+        raise InputError(f"{shown} is of format {document.get('phframe')!r:.40}; this phframe reads format {FORMAT}")
     try:
         decoded: Plan | Episode = adapter_of(Episode if kind == "episode" else Plan).validate_python(document.get(kind))
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(part) for part in first["loc"])
-        raise InputError(f"{source}: {where}: {first['msg']} ({error.error_count()} problems in all)") from None
+        raise InputError(f"{shown}: {first_fault(error)} ({error.error_count()} problems in all)") from None
     except (InputError, ValueError, TypeError, OverflowError) as error:
-        raise InputError(f"{source}: {error}") from None
+        raise InputError(f"{shown}: {error_text(error)}") from None
     return decoded

@@ -15,6 +15,7 @@ from phframe.core import (
     Action,
     Contacts,
     GripperPath,
+    GripperTrajectory,
     IncompatibleError,
     JointTrajectory,
     Motion,
@@ -47,6 +48,8 @@ APPROACH_SPEED = 0.5
 """Of the fingertip outside the shelf, in free space (m/s)."""
 RETREAT_SPEED = 0.25
 """Of the fingertip that draws back after a stall (m/s)."""
+LONGEST_ACTION = 1000.0
+"""Of the world's time (s): ten times what the slowest push takes. A simulation that was begun is not interrupted."""
 MOTION_ATTEMPTS, MOTION_SECONDS = 10, 300.0
 """How often a motion planner may try anew, and for how long (s)."""
 
@@ -136,12 +139,14 @@ class World:
         if (refusal := self._refuse_opening(action)) is not None:
             return refusal
         if self._motion_planner is not None:
-            return self._plan_joint_trajectory(self._motion_planner, state, action.path)
+            timed = time_path(action.path, action.path.rule(0).opening, self.arm.force_limit)
+            return _refuse_long(timed) or self._plan_joint_trajectory(self._motion_planner, state, action.path)
         pose = self.home if state.arm is None else state.arm.gripper
         first = action.path.rule(0).opening
         path = starting_from(action.path, pose, PhaseRule(APPROACH_SPEED, first, Contacts.NONE))
         opening = self.arm.shape.min_opening if state.arm is None else state.arm.commanded_opening
-        return time_path(path, opening, self.arm.force_limit)
+        timed = time_path(path, opening, self.arm.force_limit)
+        return _refuse_long(timed) or timed
 
     def _plan_joint_trajectory(
         self, planner: MotionPlanner[Any], state: State, path: GripperPath
@@ -214,3 +219,10 @@ class World:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+def _refuse_long(timed: GripperTrajectory) -> Unreachable | None:
+    """Why a path is not followed at its speeds: for the time that it takes."""
+    if timed.duration <= LONGEST_ACTION:
+        return None
+    return Unreachable(0.0, f"it takes {timed.duration:.0f} s; an action may take {LONGEST_ACTION:.0f} s")

@@ -20,6 +20,7 @@ import numpy as np
 from phframe.core import FloatArray, InputError, PhframeError, SceneError, yaw_of
 from phframe.core.bounded_process import answer
 from phframe.core.paths import path_shown, user_path
+from phframe.core.regular_file import read_regular_file
 from phframe.scenes.foreign import Block, ForeignScene, FreeBody, listed
 from phframe.scenes.foreign_file import ForeignReading
 from phframe.scenes.mjcf import MOUNT_PREFIX, TARGET_KEY
@@ -79,8 +80,7 @@ def _read(file: Path, source: str) -> ForeignScene:
 
 def _content(file: Path, source: str) -> bytes:
     try:
-        with file.open("rb") as stream:
-            content = stream.read(MAX_BYTES + 1)
+        content = read_regular_file(file, MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(f"cannot read {source}: {reason[:1].lower()}{reason[1:]}") from None

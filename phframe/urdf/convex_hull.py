@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from phframe.core import ArmError, FloatArray, IntArray
+from phframe.core.regular_file import read_regular_file
 from phframe.core.value import Floats, Ints, Value, frozen_ints
 from phframe.urdf.solids import ORIGIN, Vector, rotation
 from phframe.urdf.trimesh_ import mesh_points
@@ -70,8 +71,7 @@ def read_hull(path: Path, scale: Vector) -> tuple[FloatArray, IntArray]:
         NotInstalledError: If what reads this format is not installed.
     """
     try:
-        with path.open("rb") as file:
-            content = file.read(MOST_BYTES + 1)
+        content = read_regular_file(path, MOST_BYTES + 1)
         if len(content) > MOST_BYTES:
             raise ValueError(f"it is larger than {MOST_BYTES // 1_000_000} MB")
         return _hull(content, path.suffix.lower(), scale)

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from phframe.core import ArmError, Joint
 from phframe.urdf.description import ArmDescription
-from phframe.urdf.model import Robot
+from phframe.urdf.model import Robot, listed
+from phframe.yaml.wording import shown
 
 
 def check_description(description: ArmDescription, robot: Robot) -> None:
@@ -30,8 +31,8 @@ def check_description(description: ArmDescription, robot: Robot) -> None:
         _check_values("a seed configuration", configuration, joints)
     if strange := sorted({link for pair in description.allowed_collisions for link in pair} - set(robot.links)):
         raise ArmError(
-            f"'overlapping' or the SRDF names the link {strange[0]!r}, which the URDF has not; "
-            f"there is: {', '.join(robot.links)}"
+            f"'overlapping' or the SRDF names the link {shown(strange[0])}, which the URDF has not; "
+            f"there is: {listed(robot.links)}"
         )
 
 

@@ -14,7 +14,8 @@ import numpy as np
 from phframe.core import ArmError, ArmModel, FloatArray
 from phframe.urdf.description import ArmDescription, TipFrame
 from phframe.urdf.description_check import check_description
-from phframe.urdf.model import Mimic, Robot, RobotJoint
+from phframe.urdf.model import Mimic, Robot, RobotJoint, listed
+from phframe.yaml.wording import shown
 
 SIDES = (1.0, -1.0)
 ALONG = 1e-3
@@ -77,7 +78,7 @@ def _with_tip(robot: Robot, tip: TipFrame | None) -> Robot:
             raise ArmError(f"the URDF has no link {ArmModel.tip_link!r}: say under 'tip' where the fingertip is")
         return robot
     if tip.link not in robot.links:
-        raise ArmError(f"the URDF has no link {tip.link!r}; there is: {', '.join(robot.links)}")
+        raise ArmError(f"the URDF has no link {shown(tip.link)}; there is: {listed(robot.links)}")
     if ArmModel.tip_link in robot.links:
         raise ArmError(f"the URDF has a link {ArmModel.tip_link!r} already: leave out 'tip', or rename the link")
     return robot.with_frame(ArmModel.tip_link, tip.link, tip.at, tip.rpy)
@@ -92,7 +93,7 @@ def _resolved(robot: Robot, name: str) -> Mimic:
             raise ArmError(f"joint {name!r} of the URDF follows itself (mimic)")
         seen.add(coupling.joint)
         if coupling.joint not in robot.moving:
-            raise ArmError(f"joint {name!r} of the URDF follows {coupling.joint!r}, which is no joint that moves")
+            raise ArmError(f"joint {name!r} of the URDF follows {shown(coupling.joint)}, which is no joint that moves")
     return coupling
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from phframe.core import ArmError
+from phframe.yaml.wording import shown
 
 PACKAGES = ("package://", "model://")
 PATHS = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH")
@@ -23,10 +24,17 @@ def find_mesh(name: str, folder: Path | None) -> Path:
     Raises:
         ArmError: If there is no such file; says where it was looked for.
     """
-    found = next((path for path in _candidates(name, folder) if path.is_file()), None)
+    found = next((path for path in _candidates(name, folder) if _is_there(path)), None)
     if found is None:
-        raise ArmError(f"the mesh {name!r} of the URDF is not there; looked {_where(name, folder)}")
+        raise ArmError(f"the mesh {shown(name)} of the URDF is not there; looked {_where(name, folder)}")
     return found.absolute()
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a name that no file can have
+        return False
 
 
 def _where(name: str, folder: Path | None) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
@@ -12,7 +12,10 @@ import numpy as np
 from phframe.core import ArmError, FloatArray, Joint
 from phframe.urdf.convex_hull import ConvexHull
 from phframe.urdf.solids import ORIGIN, Inertia, Solid, Vector, axis_rotation, roll_pitch_yaw, rotation
+from phframe.yaml.wording import shown
 
+MOST_LISTED = 20
+"""Names in one message."""
 CollisionGeometry = Solid | ConvexHull
 Color = tuple[float, float, float, float]
 
@@ -214,8 +217,7 @@ class Robot:
             ArmError: If no joint that moves is called so.
         """
         if name not in self.moving:
-            there = ", ".join(sorted(self.moving)) or "none"
-            raise ArmError(f"the URDF has no moving joint {name!r}; there is: {there}")
+            raise ArmError(f"the URDF has no moving joint {shown(name)}; there is: {listed(sorted(self.moving))}")
         return self.moving[name]
 
     def with_joints(self, joints: Iterable[RobotJoint]) -> Robot:
@@ -256,10 +258,16 @@ class Robot:
         for joint in joints:
             for link in (joint.parent, joint.child):
                 if link not in self.links:
-                    raise ArmError(f"a joint of the URDF names the link {link!r}, which does not exist")
+                    raise ArmError(f"a joint of the URDF names the link {shown(link)}, which does not exist")
         roots = [link for link in self.links if link not in self.parent_joints]
         if len(roots) != 1 or len(joints) != len(self.parent_joints) or len(self.from_root) != len(joints):
-            raise ArmError(f"the links of the URDF must make one tree; without a parent: {', '.join(roots) or 'none'}")
+            raise ArmError(f"the links of the URDF must make one tree; without a parent: {listed(roots)}")
+
+
+def listed(names: Collection[str]) -> str:
+    """Names in a message: the first of them, and how many more there are."""
+    first = ", ".join(list(names)[:MOST_LISTED]) or "none"
+    return first if len(names) <= MOST_LISTED else f"{first} and {len(names) - MOST_LISTED} more"
 
 
 def _twice(names: list[str], what: str) -> str:

@@ -84,6 +84,8 @@ def _inmost(points: FloatArray, side: int) -> float:
 
 def _outline(name: str, points: FloatArray, side: int = 0) -> Outline:
     seen = convex_hull(points[:, :2])
+    if len(seen) < 3:
+        raise ArmError(f"the collision geometry of the gripper's {name} has no extent seen from above")
     corners = seen if len(seen) <= MOST_CORNERS else _box(seen)
     return Outline(name, corners, side, float(points[:, 2].min()), float(points[:, 2].max()))
 

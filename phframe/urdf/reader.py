@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from math import hypot, isfinite
+from math import hypot
 from pathlib import Path
 from typing import Literal, cast
 
 from phframe.core import ArmError, Joint
+from phframe.core.names import name_fault, name_shown
 from phframe.urdf.convex_hull import ConvexHull, read_hull
 from phframe.urdf.mesh_files import find_mesh
 from phframe.urdf.model import CollisionGeometry, Color, Link, MeshFile, Mimic, Robot, RobotJoint, Visual
 from phframe.urdf.solids import ORIGIN, Inertia, Solid, Vector
+from phframe.yaml.wording import abridged, shown
 
 KINDS = ("fixed", "revolute", "continuous", "prismatic")
 TURN = 3.141592653589793
 """Either way, of a joint that turns for ever (rad)."""
 MOST_LINKS = 1000
 """Of a robot."""
+MOST = 1e20
+"""Of any number, either way: products of three are numbers, too. Limits of 1e16 that stand for none are in use."""
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 Colors = dict[str, Color | None]
 
@@ -35,10 +39,10 @@ def read_robot(text: str, folder: Path | None = None) -> Robot:
     """
     try:
         root = ET.fromstring(text)
-    except ET.ParseError as error:
+    except (ET.ParseError, ValueError) as error:  # ValueError: half of a character
         raise ArmError(f"the URDF is not XML: {error}") from None
     if root.tag != "robot":
-        raise ArmError(f"the URDF begins with <{root.tag}>, not with <robot>")
+        raise ArmError(f"the URDF begins with <{abridged(root.tag)}>, not with <robot>")
     if len(root.findall("link")) > MOST_LINKS:
         raise ArmError(f"the URDF has more than {MOST_LINKS} links; that is no arm")
     colors: Colors = {material.get("name", ""): _color(material) for material in root.findall("material")}
@@ -47,7 +51,7 @@ def read_robot(text: str, folder: Path | None = None) -> Robot:
 
 
 def _link(element: ET.Element, folder: Path | None, colors: Colors) -> Link:
-    name = _attribute(element, "name", "a link")
+    name = _name(element, "a link")
     collision = (_collision(each, name, folder) for each in element.findall("collision"))
     visuals = (_visual(each, name, folder, colors) for each in element.findall("visual"))
     return Link(
@@ -61,7 +65,7 @@ def _link(element: ET.Element, folder: Path | None, colors: Colors) -> Link:
 def _inertia(element: ET.Element | None, link: str) -> Inertia | None:
     if element is None:
         return None
-    owner, moments = f"the inertia of link {link!r}", element.find("inertia")
+    owner, moments = f"the inertia of link {shown(link)}", element.find("inertia")
     at, rpy = _origin(element)
     numbers = [0.0 if moments is None else _given(moments, key, owner) for key in MOMENTS]
     xx, xy, xz, yy, yz, zz = numbers
@@ -107,21 +111,28 @@ def _shape(element: ET.Element, link: str, role: str) -> Solid | MeshFile | None
     (at, rpy), (name, part) = _origin(element), _names(element, link, role)
     geometry = element.find("geometry")
     shape = None if geometry is None else next(iter(geometry), None)
-    owner = f"the {role} geometry of link {link!r}"
+    owner = f"the {role} geometry of link {shown(link)}"
     if shape is None:
         return None
     match shape.tag:
         case "box":
-            return Solid("box", _vector(_attribute(shape, "size", owner), owner), at, rpy, part, name)
+            box = _sizes(owner, *_vector(_attribute(shape, "size", owner), owner))
+            return Solid("box", box, at, rpy, part, name)
         case "cylinder":
-            size = _number(shape, "radius", owner), _number(shape, "length", owner)
+            size = _sizes(owner, _number(shape, "radius", owner), _number(shape, "length", owner))
             return Solid("cylinder", size, at, rpy, part, name)
         case "sphere":
-            return Solid("sphere", (_number(shape, "radius", owner),), at, rpy, part, name)
+            return Solid("sphere", _sizes(owner, _number(shape, "radius", owner)), at, rpy, part, name)
         case "mesh":
             scale = _vector(shape.get("scale", "1 1 1"), owner)
             return MeshFile(_attribute(shape, "filename", owner), scale, at, rpy)
-    raise ArmError(f"{owner} in the URDF is a {shape.tag!r}; there is: box, cylinder, sphere, mesh")
+    raise ArmError(f"{owner} in the URDF is a {shown(shape.tag)}; there is: box, cylinder, sphere, mesh")
+
+
+def _sizes(owner: str, *sizes: float) -> tuple[float, ...]:
+    if min(sizes) <= 0.0:
+        raise ArmError(f"{owner} of the URDF has a size of {min(sizes):g} m; one above 0 is needed")
+    return sizes
 
 
 def _names(element: ET.Element, link: str, role: str) -> tuple[str, str]:
@@ -137,10 +148,12 @@ def _color(material: ET.Element) -> Color | None:
 
 
 def _joint(element: ET.Element) -> RobotJoint:
-    name, kind = _attribute(element, "name", "a joint"), element.get("type", "")
+    name, kind = _name(element, "a joint"), element.get("type", "")
     if kind not in KINDS:
-        raise ArmError(f"joint {name!r} of the URDF is {kind!r}; an arm has joints that are {', '.join(KINDS)}")
-    owner, (at, rpy) = f"joint {name!r}", _origin(element)
+        raise ArmError(
+            f"joint {shown(name)} of the URDF is {shown(kind)}; an arm has joints that are {', '.join(KINDS)}"
+        )
+    owner, (at, rpy) = f"joint {shown(name)}", _origin(element)
     parent, child = (_attribute(element.find(tag), "link", owner) for tag in ("parent", "child"))
     if kind == "fixed":
         return RobotJoint(parent, child, at, rpy, fixed_name=name)
@@ -177,7 +190,7 @@ def _mimic(element: ET.Element | None, owner: str) -> Mimic | None:
 def _limits(name: str, kind: str, limit: ET.Element | None) -> Joint:
     """What is not given is 0, as the standard has it: joints that are not driven may do without."""
     lower, upper, velocity, effort = (
-        _given(limit, key, f"joint {name!r}") for key in ("lower", "upper", "velocity", "effort")
+        _given(limit, key, f"joint {shown(name)}") for key in ("lower", "upper", "velocity", "effort")
     )
     return Joint(name, *((-TURN, TURN) if kind == "continuous" else (lower, upper)), velocity=velocity, effort=effort)
 
@@ -196,6 +209,13 @@ def _attribute(element: ET.Element | None, key: str, owner: str) -> str:
     return value
 
 
+def _name(element: ET.Element, owner: str) -> str:
+    name = _attribute(element, "name", owner)
+    if fault := name_fault(name):
+        raise ArmError(f"{owner} of the URDF has the name {name_shown(name)}, which {fault}")
+    return name
+
+
 def _given(element: ET.Element | None, key: str, owner: str, otherwise: float = 0.0) -> float:
     value = None if element is None else element.get(key)
     return otherwise if value is None else _finite(value, owner)
@@ -208,7 +228,7 @@ def _number(element: ET.Element | None, key: str, owner: str) -> float:
 def _vector(text: str, owner: str) -> Vector:
     numbers = _numbers(text, owner)
     if len(numbers) != 3:
-        raise ArmError(f"{owner} of the URDF has {text!r} where three numbers are needed")
+        raise ArmError(f"{owner} of the URDF has {shown(text)} where three numbers are needed")
     return numbers[0], numbers[1], numbers[2]
 
 
@@ -220,7 +240,7 @@ def _finite(text: str, owner: str) -> float:
     try:
         number = float(text)
     except ValueError:
-        raise ArmError(f"{owner} of the URDF has {text!r} where a number is needed") from None
-    if not isfinite(number):
-        raise ArmError(f"{owner} of the URDF has {text!r} where a finite number is needed")
+        raise ArmError(f"{owner} of the URDF has {shown(text)} where a number is needed") from None
+    if not abs(number) <= MOST:
+        raise ArmError(f"{owner} of the URDF has {shown(text)} where a finite number is needed, at most {MOST:g}")
     return number

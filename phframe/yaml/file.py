@@ -6,6 +6,7 @@ from pathlib import Path
 
 from phframe.core import DocumentError, InputError
 from phframe.core.paths import path_shown, user_path
+from phframe.core.regular_file import read_regular_file
 
 MAX_BYTES = 1_000_000
 """Larger files are refused unread: a scene of a thousand objects has a tenth of that."""
@@ -39,8 +40,7 @@ def refuse_size(size: int, source: str, what: str, most: int = MAX_BYTES) -> Non
 
 def _content(path: Path, source: str, what: str, most: int) -> bytes:
     try:
-        with path.open("rb") as file:
-            content = file.read(most + 1)
+        content = read_regular_file(path, most + 1)
     except (OSError, ValueError) as error:  # ValueError: a path with a zero byte
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(f"cannot read the {what} {source}: {reason[:1].lower()}{reason[1:]}") from None

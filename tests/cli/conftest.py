@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from textwrap import dedent
 from typing import IO
@@ -51,10 +51,15 @@ def spawn(tmp_path: Path) -> Iterator[Spawn]:
     """Start a command as a process of its own."""
     started: list[subprocess.Popen[str]] = []
 
-    def spawn(*args: object, stdout: IO[str] | int = subprocess.PIPE, **environment: str) -> subprocess.Popen[str]:
+    def spawn(
+        *args: object,
+        stdout: IO[str] | int = subprocess.PIPE,
+        program: Sequence[str] = ("-m", "phframe"),
+        **environment: str,
+    ) -> subprocess.Popen[str]:
         path = os.pathsep.join([str(tmp_path / "site"), str(ROOT)])
         process = subprocess.Popen(
-            [sys.executable, "-m", "phframe", *map(str, args)],
+            [sys.executable, *program, *map(str, args)],
             stdout=stdout,
             stderr=subprocess.PIPE,
             text=True,

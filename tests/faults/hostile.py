@@ -199,21 +199,59 @@ class DoesItInGoal(Retrieve):
 class ManyActions(Planner[Options]):
     """3,000 actions, each of which takes its time."""
 
-    number, legs = 3000, 200
+    number, legs = 3000, 4
 
     def search(self, task: Task) -> Plan:
+        action = Action("back and forth", self.path(task))
+        return Plan.of(Status.CLEARED, "", task.start, [(action, task.start)] * self.number)
+
+    def path(self, task: Task) -> GripperPath:
         rule = PhaseRule(0.01, task.arm.min_opening, Contacts.OBJECTS)
         poses = np.tile([-0.6, 0.3, 0.0], (self.legs + 1, 1))
         poses[::2, 1] += 0.2
-        path = GripperPath(poses, (Phase.APPROACH,) * self.legs, {Phase.APPROACH: rule})
-        action = Action("back and forth", path)
-        return Plan.of(Status.CLEARED, "", task.start, [(action, task.start)] * self.number)
+        return GripperPath(poses, (Phase.APPROACH,) * self.legs, {Phase.APPROACH: rule})
+
+
+class AllThatMayBe(ManyActions):
+    """As many actions as a plan may have."""
+
+    number = 1000
+
+
+class LongAction(ManyActions):
+    """One that takes more than an hour."""
+
+    number, legs = 1, 200
 
 
 class LongPath(ManyActions):
     """A path of a million poses."""
 
     number, legs = 1, 1_000_000
+
+
+class ForcedLongPath(ManyActions):
+    """The same, behind the back of the class that paths are of."""
+
+    number = 1
+
+    def path(self, task: Task) -> GripperPath:
+        path = super().path(task)
+        object.__setattr__(path, "poses", np.tile(path.poses[:1], (1_000_000, 1)))
+        object.__setattr__(path, "phases", (Phase.APPROACH,) * 999_999)
+        return path
+
+
+class ManyPaths(ManyActions):
+    """Paths that are no longer than they may be, with a million poses altogether."""
+
+    number, legs = 201, 5000
+
+
+class LargeTree(ManyActions):
+    """A tree of more nodes than anybody looks at."""
+
+    number = 100_000
 
 
 class NeverEnough(Planner[Options]):

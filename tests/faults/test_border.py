@@ -39,8 +39,16 @@ from phframe.pushing.retrieve import Retrieve
 from phframe.runtime.observer import Observer
 from phframe.runtime.run import run
 from phframe.topology.single_linkage import SingleLinkage
+from tests.trials import TIMES, tried
 
 SCENE = "vieira/simple-07"
+SCENES = [
+    SCENE,
+    *(f"vieira/simple-0{number}" for number in (1, 2, 3, 4, 6, 8)),
+    "papallas/s01",
+    "papallas/s02",
+    "papallas/s03",
+][:TIMES]
 Change = Callable[[Any], Any]
 
 
@@ -217,11 +225,13 @@ class Kept(Observer):
         self.episode = episode
 
 
+@pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("wrong", KINDS)
-def test_what_a_part_returns_that_cannot_be_is_told_as_its_own(wrong: dict[str, Any]) -> None:
+def test_what_a_part_returns_that_cannot_be_is_told_as_its_own(wrong: dict[str, Any], scene: str) -> None:
+    tried("inputs: what parts return")
     kept, [(kind, part)] = Kept(), wrong.items()
     with pytest.raises(PhframeError) as caught:
-        run(RunSpec(SCENE, **wrong, loop=Loop(time_limit=20.0, max_replans=1)), [kept])
+        run(RunSpec(scene, **wrong, loop=Loop(time_limit=20.0, max_replans=1)), [kept])
     assert isinstance(caught.value, PluginError)
     assert f"{kind} {part.__name__}" in str(caught.value).replace("'", "") or "planner Wrong returned" in str(
         caught.value

@@ -15,6 +15,7 @@ from typer.testing import CliRunner, Result
 from phframe.cli.main import app
 from phframe.core import Episode
 from phframe.runtime.files import load
+from tests.trials import tried
 
 pytestmark = pytest.mark.slow
 COMMAND = ("solve", "vieira/simple-07", "--no-rerun", "--json", "--out", "out")
@@ -89,6 +90,7 @@ def test_whichever_write_fails(code: int, tmp_path: Path, monkeypatch: pytest.Mo
         place.mkdir()
         monkeypatch.chdir(place)
         result, count = solved(at, code, monkeypatch)
+        tried("inputs: a write that fails")
         check(result, place / "out")
         codes.append(result.exit_code)
         if count <= at:

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.faults.plugins.hostile import Hostile
+from tests.trials import tried
 
 ROOT = Path(__file__).parents[3]
 MOST = 300
@@ -77,6 +78,8 @@ class Bench:
         return self._ended(self._started(["sh", "-c", f"exec {sys.executable} -m phframe {line}"], {}))
 
     def _started(self, command: list[str], environment: Mapping[str, str]) -> subprocess.Popen[str]:
+        if any(self.site.iterdir()) or any(self.work.iterdir()):
+            tried("processes: a command with hostile plugins about")
         return subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,

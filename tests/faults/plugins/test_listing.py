@@ -5,11 +5,14 @@ from __future__ import annotations
 import json
 import subprocess
 import time
+from pathlib import Path
 
 import pytest
 
 from tests.faults.plugins.conftest import Bench, is_alive, made
 from tests.faults.plugins.hostile import AT_ONCE, HANGS, NOT_PLUGINS, Hostile
+from tests.trials import TIMES as TIMES_AS_MUCH
+from tests.trials import tried
 
 pytestmark = [
     pytest.mark.slow,
@@ -84,8 +87,22 @@ def test_what_does_not_say_that_it_has_plugins_is_left_alone(
     assert kind.name not in listed.stdout
 
 
+LISTINGS = ("backends", "arms", "topology", "goals", "scenes")
+
+
+@pytest.mark.parametrize("name", LISTINGS[: TIMES_AS_MUCH - 1])
+def test_so_it_is_in_every_listing(name: str, tmp_path: Path) -> None:
+    bench = made(tmp_path, AT_ONCE, PHFRAME_PLUGINS_SECONDS="120")
+    done = bench.run(name, "--json")
+    tried("processes: a hostile distribution that is asked", sum(len(bench.pids(kind.module)) for kind in AT_ONCE))
+    assert (done.returncode, done.stderr, done.stdout.count("\n")) == (0, "", 1)
+    broken = {item["distribution"] for item in json.loads(done.stdout)["broken"]}
+    assert broken == {kind.known_as or kind.name for kind in BROKEN}
+
+
 def test_no_process_of_theirs_is_left(full: Bench, listed: subprocess.CompletedProcess[str]) -> None:
     assert listed.returncode == 0
+    tried("processes: a hostile distribution that is asked", sum(len(full.pids(kind.module)) for kind in AT_ONCE))
     assert [pid for kind in AT_ONCE for pid in full.pids(kind.module) if is_alive(pid)] == []
 
 

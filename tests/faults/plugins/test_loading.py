@@ -10,6 +10,7 @@ import pytest
 
 from tests.faults.plugins.conftest import Bench, made
 from tests.faults.plugins.hostile import BAD_CLASS, BAD_TEXT, CLASS, Hostile
+from tests.trials import TIMES
 
 pytestmark = pytest.mark.slow
 
@@ -57,10 +58,11 @@ def installed(folder: Path, source: str) -> Bench:
     return bench
 
 
+@pytest.mark.parametrize("command", [("planners", "lab-class", "--json"), (*SOLVE, "lab-class")][:TIMES])
 @pytest.mark.parametrize("kind", BY_IMPORT)
-def test_what_it_does_when_it_is_imported_is_one_line(tmp_path: Path, kind: str) -> None:
+def test_what_it_does_when_it_is_imported_is_one_line(tmp_path: Path, kind: str, command: tuple[str, ...]) -> None:
     source, said = BY_IMPORT[kind]
-    check(installed(tmp_path, source).run("planners", "lab-class", "--json"), "planner 'lab-class'", said)
+    check(installed(tmp_path, source).run(*command), "planner 'lab-class'", said)
 
 
 @pytest.mark.parametrize("kind", BY_MAKING)
