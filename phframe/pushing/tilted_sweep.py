@@ -314,8 +314,8 @@ class TiltedSweeps:
     def clearance(self, push: Push) -> float:
         """Least distance of the arm from walls and from the target all the way (m).
 
-        Of a wall nearest is what is inside the shelf where the arm turns from one way into the next, or the corner at the
-        mouth.
+        Of a wall nearest is what is inside the shelf, or before its front, where the arm turns from one way into the next, or
+        the corner at the mouth.
 
         Args:
             push: In one of the ways.
@@ -324,8 +324,13 @@ class TiltedSweeps:
         place = [(way.direction, way.tilt) for way in self._ways].index((push.sweep.direction, push.sweep.tilt))
         tips = self._in_shelf_frame(points[1:3])
         x, y = (self._in_shelf.parts[place].reshape(-1, 2) + tips[:, None]).reshape(-1, 2).T
-        inside = y[x >= 0.0]
-        walls = (inside.min(initial=np.inf), shelf.width - inside.max(initial=-np.inf), shelf.depth - x.max())
+        inside, before = y[x >= 0.0], x[(x < 0.0) & ((y < 0.0) | (y > shelf.width))]
+        walls = (
+            inside.min(initial=np.inf),
+            shelf.width - inside.max(initial=-np.inf),
+            shelf.depth - x.max(),
+            -before.max(initial=-np.inf),
+        )
         fixed = np.array(
             [[corridor.end, corridor.axis], *corridor.to_local(np.array([[0.0, 0.0], [0.0, shelf.width]]))]
         )

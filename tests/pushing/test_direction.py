@@ -112,6 +112,24 @@ def test_the_other_direction_is_said_to_be_from_the_nearer_wall_where_it_is_and_
         assert OTHER & {*push.deviations} == ({name} if push.sweep.direction == other else set())
 
 
+@pytest.mark.parametrize(
+    ("y", "south", "north", "other", "name"),
+    [
+        (0.4, 0.0955, 0.1005, -1, Deviation.SPANS_CORRIDOR),
+        (0.2, 0.0955, 0.1005, -1, Deviation.OTHER_DIRECTION),
+        (0.2, 0.1005, 0.0955, 1, Deviation.SPANS_CORRIDOR),
+        (0.4, 0.1005, 0.0955, 1, Deviation.OTHER_DIRECTION),
+    ],
+)
+def test_the_nearer_wall_is_the_one_of_the_half_that_the_rectangle_is_in(
+    y: float, south: float, north: float, other: int, name: Deviation
+) -> None:
+    pushes = Case(WIDE, (0.5, y), np.array([[0.2, y - south], [0.3, y + north]])).pushes
+    assert {push.sweep.direction for push in pushes} == {1, -1}
+    for push in pushes:
+        assert OTHER & {*push.deviations} == ({name} if push.sweep.direction == other else set())
+
+
 def test_where_there_is_no_room_at_the_wall_the_other_direction_is_taken() -> None:
     """The corridor ends 2 cm from the wall: nothing fits between the two."""
     case = Case(Shelf(0.6, 0.6), (0.45, 0.14), np.array([[0.2, 0.12]]))

@@ -287,6 +287,9 @@ def test_where_there_is_no_room_outside_the_corridor_no_tilt_is_tried_in_vain(ca
 
 @often
 @given(anything)
+@example(
+    Case(Shelf(0.4, 0.4), (0.2, 0.281), np.array([[0.0, 0.03]]))
+)  # nearest is the front of a wall, beside the mouth
 def test_the_clearance_is_the_least_distance_from_walls_and_target(case: Case) -> None:
     target = np.array([case.target])
     for push in case.pushes:
