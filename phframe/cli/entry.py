@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import sys
 
-from phframe.cli.interrupt import EndSignals
+from phframe.cli.interrupt import EndSignals, dependable_interrupts
 
 PATIENCE = 0.5
 """From one signal until the next that interrupts once more: what is being saved has so long, and a key held counts once (s)."""
@@ -22,9 +22,10 @@ def main() -> None:
     try:
         try:
             signals.install()
-            from phframe.cli.main import main as run
+            with dependable_interrupts(signals.again):
+                from phframe.cli.main import main as run
 
-            run()
+                run()
         finally:
             signals.at_exit(_leave)
     except KeyboardInterrupt:

@@ -17,7 +17,7 @@ import typer
 from phframe.cli.console import note
 from phframe.cli.exit_codes import ExitCode
 from phframe.cli.failures import report
-from phframe.cli.interrupt import EndSignals, let_signals_through, signals_held_back
+from phframe.cli.interrupt import EndSignals, dependable_interrupts, let_signals_through, signals_held_back
 
 SUPERVISED = "supervised"
 """Object of the top context where a command is a process of its own, so that it may fork."""
@@ -151,7 +151,8 @@ def _done(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
     """What it returns; signals raise nothing before it, and nothing after it."""
     try:
         link.listen()
-        return work(link)
+        with dependable_interrupts(link.signals.again):
+            return work(link)
     finally:
         link.signals.over()
 

@@ -27,7 +27,8 @@ def _as_tuple(value: Any) -> Any:
 
 
 Length = Annotated[float, Field(ge=0.0, le=5.0)]
-Point = Annotated[tuple[float, float, float], BeforeValidator(_as_tuple)]
+Coordinate = Annotated[float, Field(ge=-100.0, le=100.0)]
+Point = Annotated[tuple[Coordinate, Coordinate, Coordinate], BeforeValidator(_as_tuple)]
 WidthAt = Annotated[tuple[Length, Length], BeforeValidator(_as_tuple)]
 
 

@@ -134,8 +134,8 @@ def test_what_never_ends_is_ended(deed: str, scene: str, at: int, spawn: Spawn) 
     assert process.returncode == OTHER
     assert episode.status is Status.TIMEOUT
     assert (errors == []) is bool(out)
-    assert out or errors[0].startswith(
-        "error: planning took longer than 1 s and was stopped; what was recorded is in runs"
+    assert out or re.match(  # what is left of the second, where it was asked before
+        r"error: planning took longer than (1|0\.\d+) s and was stopped; what was recorded is in runs", errors[0]
     )
 
 
