@@ -59,9 +59,7 @@ def _die_with_the_bench() -> None:
     """Have this process killed when the bench or its fork server ends, however it ends."""
     bench = multiprocessing.parent_process()
     assert bench is not None, "a trial is a child"
-    if sys.platform == "linux":
-        end_with_parent()
-    else:
+    if not end_with_parent():
         Thread(target=_watch, args=(bench.sentinel,), daemon=True).start()
     if wait([bench.sentinel], 0):  # it ended before this was said
         os._exit(1)

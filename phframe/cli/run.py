@@ -12,7 +12,6 @@ from typing import Any
 from phframe.cli.advice import terminal_advisor
 from phframe.cli.console import emit, note, show
 from phframe.cli.exit_codes import ExitCode
-from phframe.cli.interrupt import dependable_interrupts
 from phframe.cli.limits_told import LimitsTold
 from phframe.cli.partial import PartialEpisode
 from phframe.cli.progress import Progress
@@ -20,7 +19,6 @@ from phframe.cli.recording import RECORDING, RunFiles, VideoFile, recorder_type
 from phframe.cli.run_directory import RUNS, RunDirectory
 from phframe.cli.supervised import WatchdogLink
 from phframe.core import Advisor, Episode, RunSpec
-from phframe.core.errors import OverdueError
 from phframe.recorders.view import open_viewer, require_viewer
 from phframe.runtime.audience import ObserverError
 from phframe.runtime.observer import Observer
@@ -126,10 +124,9 @@ def carry_out(
         link.video(report.video)
     observers = (limits, files, partial, *videos)
     try:
-        with dependable_interrupts(link.signals.again, OverdueError):
-            asked = advisor or terminal_advisor(limits.stopping(progress.aside))
-            episode, failure = _watched(spec, observers, progress, asked, quiet=report.quiet)
-            return Carried(episode, _write(episode, directory, files.recording, partial), failure)
+        asked = advisor or terminal_advisor(limits.stopping(progress.aside))
+        episode, failure = _watched(spec, observers, progress, asked, quiet=report.quiet)
+        return Carried(episode, _write(episode, directory, files.recording, partial), failure)
     except KeyboardInterrupt:
         _tell_interrupted(partial, directory)
         return None

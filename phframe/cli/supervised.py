@@ -149,9 +149,11 @@ def _code_of(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
 
 def _done(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
     """What it returns; signals raise nothing before it, and nothing after it."""
+    from phframe.core.errors import OverdueError  # not for the watchdog
+
     try:
         link.listen()
-        with dependable_interrupts(link.signals.again):
+        with dependable_interrupts(link.signals.again, OverdueError):
             return work(link)
     finally:
         link.signals.over()
@@ -159,9 +161,7 @@ def _done(work: Callable[[WatchdogLink], int], link: WatchdogLink) -> int:
 
 def _end_with(parent: int) -> None:
     """Have this process killed when the watchdog is, so that nothing runs on unwatched; what it has written stays."""
-    if sys.platform == "linux":
-        from phframe.core.process_limits import end_with_parent
+    from phframe.core.process_limits import end_with_parent
 
-        end_with_parent()
-        if os.getppid() != parent:
-            os._exit(1)
+    if end_with_parent() and os.getppid() != parent:
+        os._exit(1)

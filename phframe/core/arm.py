@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from phframe.core.errors import ArmError
 from phframe.core.mesh import LinkMesh
 from phframe.core.options import Options
-from phframe.core.pose import compose, inverse, planar_pose, seen_from_above
+from phframe.core.pose import compose, inverse, planar_pose, rotated_in_plane, rotation_matrix, seen_from_above
 from phframe.core.shelf import BasePose, Shelf
 from phframe.core.unreachable import Unreachable
 from phframe.core.value import FloatArray, Floats, Value, short_repr
@@ -89,6 +89,11 @@ class ArmShape:
     def top(self) -> float:
         """Of its highest part above the board (m)."""
         return self.height + max(outline.top for outline in self.closed)
+
+    def front(self, yaw: float) -> float:
+        """How far the closed arm stands out ahead of its fingertip, along the shelf's x axis, at a yaw (m)."""
+        turn = rotation_matrix(yaw).T
+        return max(float(rotated_in_plane(outline.vertices, turn)[:, 0].max()) for outline in self.closed)
 
     def meets(self, height: float) -> tuple[bool, ...]:
         """For each part of ``closed``, whether it meets what stands on the board and is so tall (m), or passes over it."""

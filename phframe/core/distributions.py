@@ -114,7 +114,8 @@ def _text(distribution: metadata.Distribution, name: str) -> str:
 
 def _name_and_version(distribution: metadata.Distribution) -> tuple[str, str]:
     found = list(fields(_text(distribution, "METADATA") or _text(distribution, "PKG-INFO")))
-    name, version = (next((value for key, value in found if key == wanted), "") for wanted in ("name", "version"))
+    first = dict(reversed(found))
+    name, version = first.get("name", ""), first.get("version", "")
     if not _NAME.fullmatch(name):
         raise PluginError(f"its metadata gives it {f'the name {_short(name)}' if name else 'no name'}")
     if not _VERSION.fullmatch(version):

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from importlib import metadata
 
+UNREADABLE = (metadata.PackageNotFoundError, OSError, ValueError)
+"""Raised where a distribution is not installed, or its metadata cannot be read or is no text."""
+
 
 def fields(text: str) -> Iterator[tuple[str, str]]:
     """The names of the fields, in lower case, and the first lines of their values.
@@ -25,9 +28,7 @@ def version_of(distribution: str) -> str:
     """The version of an installed distribution; empty: it gives none.
 
     Raises:
-        PackageNotFoundError: If it is not installed.
-        OSError: If its metadata cannot be read.
-        ValueError: If its metadata is no text.
+        UNREADABLE: One of these, if it cannot be found out.
     """
     found = metadata.distribution(distribution)
     text = found.read_text("METADATA") or found.read_text("PKG-INFO") or ""
@@ -38,9 +39,7 @@ def requirements_of(distribution: str) -> list[str]:
     """What an installed distribution asks for, line by line.
 
     Raises:
-        PackageNotFoundError: If it is not installed.
-        OSError: If its metadata cannot be read.
-        ValueError: If its metadata is no text.
+        UNREADABLE: One of these, if it cannot be found out.
     """
     found = metadata.distribution(distribution)
     if text := found.read_text("METADATA"):

@@ -63,7 +63,7 @@ def rotation_matrix(angle: float) -> FloatArray:
     return np.array([[c, -s], [s, c]])
 
 
-def rotated(points: FloatArray, matrix: FloatArray) -> FloatArray:
+def rotated_in_plane(points: FloatArray, matrix: FloatArray) -> FloatArray:
     """Plane vectors ``(..., 2)``, each a row, times rotation matrices ``(..., 2, 2)``: by products and sums alone.
 
     The bits are then the same on every processor. Those of ``points @ matrix`` are not: BLAS fuses products and sums where

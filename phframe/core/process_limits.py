@@ -26,9 +26,14 @@ def limit_process(**limits: int) -> None:
             resource.setrlimit(what, (wanted if most < 0 else min(wanted, most), most))
 
 
-def end_with_parent() -> None:
-    """Have this process killed when its parent ends, however that ends. Linux can."""
-    if sys.platform == "linux":
-        import ctypes
+def end_with_parent() -> bool:
+    """Have this process killed when its parent ends, however that ends; whether the system can do so, as Linux can.
 
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
+    A parent that has ended before this is not noticed: see to it afterwards.
+    """
+    if sys.platform != "linux":
+        return False
+    import ctypes
+
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
+    return True

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from phframe.core import FloatArray, Outline, rotated, rotation_matrix
+from phframe.core import FloatArray, Outline, rotated_in_plane, rotation_matrix
 
 Angles = float | tuple[float, ...]
 """One angle or several (rad). What is worked out for several has one leading axis more than what is for one."""
@@ -28,7 +28,7 @@ def turns(angles: Angles) -> FloatArray:
 
 def turned(parts: FloatArray, angles: Angles) -> FloatArray:
     """Parts ``(m, v, 2)`` turned about the origin by angles: ``(..., m, v, 2)``."""
-    return rotated(parts, np.swapaxes(turns(angles), -1, -2)[..., None, None, :, :])
+    return rotated_in_plane(parts, np.swapaxes(turns(angles), -1, -2)[..., None, None, :, :])
 
 
 def edges_of(parts: FloatArray) -> FloatArray:

@@ -93,7 +93,7 @@ class _Slopes:
 def _dot(normals: FloatArray, vector: FloatArray) -> FloatArray:
     """Products ``(..., p, k)`` of normals ``(..., p, k, 2)`` and vectors ``(..., 2)``."""
     x, y = vector[..., 0, None, None], vector[..., 1, None, None]
-    return np.asarray(normals[..., 0] * x + normals[..., 1] * y)  # not by BLAS: see core.rotated
+    return np.asarray(normals[..., 0] * x + normals[..., 1] * y)  # not by BLAS: see core.rotated_in_plane_in_plane
 
 
 def _of_pairs(arm: FloatArray, walls: FloatArray) -> FloatArray:

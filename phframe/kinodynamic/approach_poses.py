@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from phframe.core import FloatArray, rotation_matrix
+from phframe.core import FloatArray, rotated_in_plane, rotation_matrix
 
 SIDES = {"behind": math.pi, "its left": math.pi / 2.0, "its right": -math.pi / 2.0}
 """Where the fingertip stands, seen from the object along the way to its place (rad)."""
@@ -28,8 +28,8 @@ def approach_poses(
         distance: Of the fingertip from the centre (m).
         most_yaw: Greatest yaw to either side (rad).
     """
-    along = (place - center) / np.linalg.norm(place - center)
+    along = (place - center) / math.hypot(*(place - center))
     for name, angle in SIDES.items():
-        away = rotation_matrix(angle) @ along
+        away = rotated_in_plane(along, rotation_matrix(angle).T)
         yaw = math.atan2(-float(away[1]), abs(float(away[0])))
         yield name, np.array([*(center + distance * away), min(max(yaw, -most_yaw), most_yaw)])

@@ -51,5 +51,4 @@ def way_out(pose: FloatArray, arm: ArmShape) -> float:
         arm: With its fingers closed.
     """
     yaw = float(pose[2])
-    front = max(float((outline.vertices @ [np.cos(yaw), -np.sin(yaw)]).max()) for outline in arm.closed)
-    return max(0.0, float(pose[0]) + front + MOUTH_CLEARANCE) / max(float(np.cos(yaw)), LEAST_AHEAD)
+    return max(0.0, float(pose[0]) + arm.front(yaw) + MOUTH_CLEARANCE) / max(float(np.cos(yaw)), LEAST_AHEAD)

@@ -32,7 +32,7 @@ def drawn_place(
     start = state.positions[row]
     for attempt in range(TRIES):
         place = _drawn(scene, start, float(scene.radii[row]), rng, anywhere=attempt >= NEAR_TRIES)
-        far_enough = float(np.linalg.norm(place - start)) >= LEAST
+        far_enough = math.hypot(*(place - start)) >= LEAST
         if far_enough and is_free(scene, state, row, place) and not forbidden(place):
             return place
     return None

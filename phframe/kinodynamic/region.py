@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from phframe.core import FloatArray, State, rotated, rotation_matrix
+from phframe.core import FloatArray, State, rotated_in_plane, rotation_matrix
 from phframe.kinodynamic.steered_tree import Room
 
 TURN = 0.1
@@ -83,7 +83,7 @@ class GripperNear(Region):
 
     def distance(self, coordinates: FloatArray) -> float:
         """From the pose."""
-        return float(np.linalg.norm(coordinates - pose_coordinates(self.pose)))
+        return math.hypot(*(coordinates - pose_coordinates(self.pose)))
 
     def sample(self, rng: np.random.Generator) -> FloatArray:
         """The pose: the region is small."""
@@ -118,7 +118,7 @@ class ObjectNear(Region):
 
     def distance(self, coordinates: FloatArray) -> float:
         """Of the object from the place."""
-        return float(np.linalg.norm(coordinates[3:] - self.place))
+        return math.hypot(*(coordinates[3:] - self.place))
 
     def sample(self, rng: np.random.Generator) -> FloatArray:
         """The object evenly in the disc around the place, the fingertip where it would have pushed it from."""
@@ -158,7 +158,7 @@ class TargetInHand(Region):
     def distance(self, coordinates: FloatArray) -> float:
         """Of the target from where the fingers would hold it."""
         yaw = float(coordinates[2]) / TURN
-        local = rotated(coordinates[3:] - coordinates[:2], rotation_matrix(yaw))
+        local = rotated_in_plane(coordinates[3:] - coordinates[:2], rotation_matrix(yaw))
         return math.hypot(float(local[0]) + self.past, float(local[1]))
 
     def sample(self, rng: np.random.Generator) -> FloatArray:

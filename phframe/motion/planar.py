@@ -22,7 +22,7 @@ from phframe.core import (
     PhaseRule,
     State,
     Unreachable,
-    rotated,
+    rotated_in_plane,
     rotation_matrix,
     starting_from,
 )
@@ -144,7 +144,8 @@ class PlanarMotionPlanner(MotionPlanner[PlanarMotionOptions]):
         """Joint values and speeds ``(k, 3)``: the poses as the base sees them, from the first joint values on."""
         rotation = rotation_matrix(self.base_pose.yaw)
         seen, faster = (
-            np.column_stack([rotated(each[:, :2], rotation), each[:, 2]]) for each in (poses - poses[0], speeds)
+            np.column_stack([rotated_in_plane(each[:, :2], rotation), each[:, 2]])
+            for each in (poses - poses[0], speeds)
         )
         return first + seen, faster
 

@@ -9,7 +9,17 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from phframe.core import ArmShape, FloatArray, Floats, Infeasible, Scene, Shelf, Value, rotated, rotation_matrix
+from phframe.core import (
+    ArmShape,
+    FloatArray,
+    Floats,
+    Infeasible,
+    Scene,
+    Shelf,
+    Value,
+    rotated_in_plane,
+    rotation_matrix,
+)
 
 AUTO_CLEARANCE = 0.004
 """Left on either side (m) when the half-width is derived from the arm."""
@@ -45,11 +55,11 @@ class Corridor(Value):
 
     def to_local(self, points: FloatArray) -> FloatArray:
         """Points ``(..., 2)`` of the shelf frame in the corridor frame."""
-        return rotated(points - self.origin, rotation_matrix(self.angle))
+        return rotated_in_plane(points - self.origin, rotation_matrix(self.angle))
 
     def to_shelf(self, points: FloatArray) -> FloatArray:
         """Points ``(..., 2)`` of the corridor frame in the shelf frame."""
-        return rotated(points, rotation_matrix(self.angle).T) + self.origin
+        return rotated_in_plane(points, rotation_matrix(self.angle).T) + self.origin
 
     def contains(self, points: FloatArray) -> NDArray[np.bool_]:
         """Mask ``(n,)`` of the centres ``(n, 2)``, in the shelf frame, that lie in the strip."""

@@ -16,7 +16,7 @@ from phframe.core import (
     PersistenceDiagram,
     State,
     Task,
-    rotated,
+    rotated_in_plane,
     rotation_matrix,
     yaw_of,
 )
@@ -108,7 +108,7 @@ class Pushing:
         if not any(points.any() for points in own):
             return problem.local, np.arange(len(own))
         yaws = [yaw_of(pose) - problem.corridor.angle for pose in problem.state.poses[problem.members]]
-        turned = [rotated(points, rotation_matrix(yaw).T) for points, yaw in zip(own, yaws, strict=True)]
+        turned = [rotated_in_plane(points, rotation_matrix(yaw).T) for points, yaw in zip(own, yaws, strict=True)]
         placed = [points + center for points, center in zip(turned, problem.local, strict=True)]
         return np.vstack(placed), np.repeat(np.arange(len(own)), [len(points) for points in own])
 

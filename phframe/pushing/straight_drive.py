@@ -20,7 +20,7 @@ from phframe.core import (
     State,
     Stop,
     StopCause,
-    rotated,
+    rotated_in_plane,
     rotation_matrix,
 )
 from phframe.geometry.arm_view import ArmView, arm_view
@@ -60,7 +60,7 @@ class StraightDrive:
             radii: Of the discs ``(n,)``, or of each of them (m).
         """
         start, end = self.action.path.poses
-        local = rotated(points - end[:2], rotation_matrix(float(end[2])))
+        local = rotated_in_plane(points - end[:2], rotation_matrix(float(end[2])))
         length = math.hypot(*(end[:2] - start[:2]))
         return np.asarray(distances_on_way_in(local, *self.view.boxes, length).min(axis=0) < radii)
 

@@ -22,7 +22,7 @@ from phframe.core import (
     PhaseRule,
     Scene,
     State,
-    rotated,
+    rotated_in_plane,
     rotation_matrix,
 )
 from phframe.geometry.arm_view import arm_view
@@ -166,7 +166,7 @@ class StraightPusher:
             length = math.hypot(*(last - first))
             if not walls.is_free(first) or (length and walls.travel(first, (last - first) / length, length) < length):
                 return "a wall is in the arm's way"
-        local, entry = rotated((at - begin)[None], rotation_matrix(yaw)), math.hypot(*(begin - outside))
+        local, entry = rotated_in_plane((at - begin)[None], rotation_matrix(yaw)), math.hypot(*(begin - outside))
         met = distances_on_way_in(local, *self._view.boxes, entry).min() < radius
         return "the arm cannot get behind it without touching it" if met else ""
 

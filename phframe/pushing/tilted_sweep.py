@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from phframe.core import MOUTH_CLEARANCE, FloatArray, IntArray, rotated, rotation_matrix
+from phframe.core import MOUTH_CLEARANCE, FloatArray, IntArray, rotated_in_plane, rotation_matrix
 from phframe.geometry.arm_view import ArmView
 from phframe.geometry.straight_motion import distances_on_way_in, swept_distances
 from phframe.pushing.corridor import Corridor
@@ -199,7 +199,7 @@ class TiltedSweeps:
 
     def _in_shelf_frame(self, points: FloatArray) -> FloatArray:
         """Points ``(..., 2)`` of the corridor frame in the shelf frame."""
-        return rotated(points, self._turn) + self._corridor.origin
+        return rotated_in_plane(points, self._turn) + self._corridor.origin
 
     def _lane(self, depth: FloatArray) -> FloatArray:
         """Beside the rectangle, on the side away from the push."""

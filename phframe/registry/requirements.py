@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
-from importlib import metadata
 from typing import TYPE_CHECKING
 
-from phframe.core.metadata_fields import requirements_of, version_of
+from phframe.core.metadata_fields import UNREADABLE, requirements_of, version_of
 from phframe.registry.hookspec import PROJECT
 
 if TYPE_CHECKING:
@@ -92,7 +91,7 @@ def _is_installed(name: str) -> bool:
         return True
     try:
         return bool(version_of(name))
-    except (metadata.PackageNotFoundError, OSError, ValueError):
+    except UNREADABLE:
         return False
 
 

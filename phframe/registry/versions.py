@@ -5,10 +5,9 @@ from __future__ import annotations
 import platform
 from collections.abc import Iterable, Iterator
 from functools import cache
-from importlib import metadata
 
 from phframe.core.distributions import HOME
-from phframe.core.metadata_fields import version_of
+from phframe.core.metadata_fields import UNREADABLE, version_of
 from phframe.registry.catalogue import Catalogue
 from phframe.registry.extension import Kind
 from phframe.registry.manager import look_up
@@ -46,5 +45,5 @@ def _of_extras(distribution: str, extras: Iterable[str]) -> Iterator[str]:
 def _version(distribution: str) -> str:
     try:
         return version_of(distribution)
-    except (metadata.PackageNotFoundError, OSError, ValueError):
+    except UNREADABLE:
         return "unknown" if distribution == HOME else ""

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from phframe.core import ArmShape, FloatArray, Scene, State, rotated, rotation_matrix
+from phframe.core import ArmShape, FloatArray, Scene, State, rotated_in_plane, rotation_matrix
 from phframe.geometry.polygon import signed_distance
 from phframe.runtime.noise import POSITIONS, Noise
 
@@ -61,7 +61,7 @@ class Sensor:
             return []
         opening = float(np.clip(state.arm.opening, self._shape.min_opening, self._shape.max_opening))
         at, turn = state.arm.gripper[:2], rotation_matrix(float(state.arm.gripper[2])).T
-        return [rotated(outline.vertices, turn) + at for outline in self._shape.outlines(opening)]
+        return [rotated_in_plane(outline.vertices, turn) + at for outline in self._shape.outlines(opening)]
 
 
 class _Place:

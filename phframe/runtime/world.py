@@ -32,8 +32,6 @@ from phframe.core import (
     Unreachable,
     Watch,
     motion_planner_of,
-    rotated,
-    rotation_matrix,
     starting_from,
     time_path,
 )
@@ -109,7 +107,7 @@ class World:
     def _refuse_misfit(self) -> None:
         """Refuse an arm that stands in the shelf, or does not reach through it."""
         shelf, arm = self.scene.shelf, self.spec.arm
-        if self.home[0] + self._front(self.home[2]) >= 0.0:
+        if self.home[0] + self.arm.shape.front(float(self.home[2])) >= 0.0:
             raise IncompatibleError(
                 f"arm {arm!r} at its base pose {self.base_pose} stands in the shelf when it is parked"
             )
@@ -194,19 +192,15 @@ class World:
         assert state.arm is not None, "an arm that has stalled is not parked"
         pose, opening = state.arm.gripper, state.arm.commanded_opening
         ahead = np.array([np.cos(pose[2]), np.sin(pose[2])])
-        away = max(0.0, float(pose[0]) + MOUTH_CLEARANCE + self._front(float(pose[2]))) / max(ahead[0], LEAST_AHEAD)
+        away = max(0.0, float(pose[0]) + MOUTH_CLEARANCE + self.arm.shape.front(float(pose[2]))) / max(
+            ahead[0], LEAST_AHEAD
+        )
         out = np.array([*(pose[:2] - away * ahead), pose[2]])
         rule = PhaseRule(RETREAT_SPEED, opening, Contacts.OBJECTS)
         path = GripperPath(np.array([pose, out]), (Phase.RETREAT,), {Phase.RETREAT: rule})
         if self._motion_planner is not None:
             return self._plan_joint_trajectory(self._motion_planner, state, path)
         return time_path(path, opening, self.arm.force_limit)
-
-    def _front(self, yaw: float) -> float:
-        """How far the arm stands out ahead of its fingertip at a yaw (m)."""
-        return max(
-            float(rotated(outline.vertices, rotation_matrix(-yaw).T)[:, 0].max()) for outline in self.arm.shape.closed
-        )
 
     def close(self) -> None:
         """Give the engine's memory back."""

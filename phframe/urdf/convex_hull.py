@@ -123,7 +123,7 @@ def _first_line(error: Exception) -> str:
 
 
 def _quickhull(points: FloatArray) -> Any:
-    from scipy.spatial import ConvexHull as QuickHull  # whose import takes a third of the start of a solve
+    from scipy.spatial import ConvexHull as QuickHull  # its import takes a fifth of a solve, and few arms have meshes
     from scipy.spatial import QhullError
 
     try:

@@ -15,8 +15,11 @@ from typing import IO
 import pytest
 from typer.testing import CliRunner, Result
 
+from phframe.bench.bench_plan import BenchPlan
+from phframe.bench.session import BenchSession
 from phframe.cli.main import app
 from phframe.registry import catalogue
+from tests.bench.benches import settings
 
 ROOT = Path(__file__).parents[2]
 HEADER = "from phframe.registry import Extension, Kind, hookimpl\n"
@@ -129,3 +132,13 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
     for added in set(sys.modules) - before:
         if added.startswith("lab"):
             del sys.modules[added]
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The directory of the bench ``tests.cli.bench_runs.SMALL``, run undisturbed."""
+    folder = tmp_path_factory.mktemp("finished")
+    plan = BenchPlan.of(settings("vieira/simple-0[123]", planners=("phia", "ooa")))
+    with BenchSession(folder, plan) as session:
+        assert len(list(session.run(range(6), session.local(2)))) == 6
+    return folder

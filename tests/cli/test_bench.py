@@ -3,16 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
-import signal
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import suppress
-from functools import partial
 from pathlib import Path
-from random import Random
-from typing import Any
 
 import pytest
 
@@ -21,51 +15,13 @@ from phframe.bench.directory_lock import LOCK
 from phframe.bench.environment import Environment
 from phframe.bench.session import BenchSession
 from phframe.bench.store import FILE, ResultStore
-from phframe.bench.trial_result import TrialEnd
 from phframe.cli.main import app
 from phframe.core import RunSpec
-from tests.bench.benches import a_result, lives, misbehaving, noted, settings
-from tests.cli.conftest import Invoke, Run, Spawn, until
+from tests.bench.benches import a_result, misbehaving, settings
+from tests.cli.bench_runs import HERE, SMALL, rows
+from tests.cli.conftest import Invoke, Run
 
 pytestmark = pytest.mark.long
-
-SMALL = ("bench", "vieira/simple-0[123]", "--planner", "phia", "--planner", "ooa")
-HERE = ("--out", "here")
-LIMITED = """
-import resource
-resource.setrlimit(resource.RLIMIT_FSIZE, (88 * 1024, 88 * 1024))
-from phframe.cli.main import main
-main()
-"""
-"""The command with no room for larger files than that."""
-TIMES = {
-    "planning_time",
-    "topology_time",
-    "simulation_time",
-    "motion_planning_time",
-    "first_solution_time",
-    "wall_time",
-}
-OWN = {"started", "peak_memory", "environment"}
-"""Of one run alone."""
-
-
-def rows(directory: Path | str) -> list[dict[str, Any]]:
-    """All results, without what differs from run to run."""
-    with ResultStore.open(directory) as store:
-        results = list(store.results())
-    names = [name for name in type(results[0]).__slots__ if name not in TIMES | OWN]
-    return [{name: getattr(result, name) for name in names} for result in results]
-
-
-@pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A bench that was run undisturbed."""
-    folder = tmp_path_factory.mktemp("finished")
-    plan = BenchPlan.of(settings("vieira/simple-0[123]", planners=("phia", "ooa")))
-    with BenchSession(folder, plan) as session:
-        assert len(list(session.run(range(6), session.local(2)))) == 6
-    return folder
 
 
 @pytest.mark.slow
@@ -320,128 +276,6 @@ def test_two_benches_are_not_at_work_in_one_directory(invoke: Invoke, finished: 
         result = invoke(*SMALL, "--out", finished)
     assert result.exit_code == 2
     assert "another phframe bench is at work in" in result.stderr
-
-
-@pytest.mark.slow
-def test_where_the_disk_is_full_what_was_stored_stays_and_the_rest_is_run_later(run: Run, finished: Path) -> None:
-    limited = (sys.executable, "-c", LIMITED, *SMALL, *HERE)
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
-    full = subprocess.run(limited, capture_output=True, text=True, check=False, timeout=300, env=environment)
-    assert full.returncode == 2
-    assert full.stderr.splitlines()[-1].startswith(f"error: cannot use here/{FILE}: disk I/O error")
-    before = rows("here")
-    assert 0 < len(before) < 6
-    assert run(*SMALL, *HERE).returncode == 0
-    assert [row for row in before if row in rows("here")] == before
-    assert rows("here") == rows(finished)
-
-
-@pytest.mark.slow
-def test_a_trial_is_repeated_and_compared(invoke: Invoke, finished: Path) -> None:
-    same = invoke("bench", "replay", finished, "vieira/simple-02", "ooa", "0", "--no-rerun")
-    assert (same.exit_code, same.stdout) == (0, "the same: retrieved, pushes 3\n")
-    (folder,) = Path("runs").iterdir()
-    assert {path.name for path in folder.iterdir()} == {"episode.json", "summary.json"}
-    with ResultStore.open(finished) as store:
-        (result,) = store.find("vieira/simple-01", "phia", "0")
-        key, pushes = result.key, result.pushes
-    lie = Path("lie")
-    lie.mkdir()
-    (lie / FILE).write_bytes((finished / FILE).read_bytes())
-    with ResultStore.open(lie, read_only=False) as store:
-        store._connection.execute("UPDATE results SET pushes = 9 WHERE key = ?", (key,))
-    other = invoke("bench", "replay", lie, key[:8], "--no-rerun", "--json")
-    assert other.exit_code == 1
-    assert json.loads(other.stdout)["differences"] == {"pushes": [9, pushes]}
-
-
-@pytest.mark.slow
-def test_a_planner_in_a_file_is_repeated_only_if_it_is_given(invoke: Invoke) -> None:
-    name = misbehaving("Raises")
-    assert invoke("bench", "vieira/simple-01", "--planner", name, *HERE).exit_code == 1
-    words = ("bench", "replay", "here", "vieira/simple-01", name, "0", "--no-rerun")
-    refused = invoke(*words)
-    assert refused.exit_code == 2
-    assert f"give it yourself, as in --planner {name}" in refused.stderr
-    same = invoke(*words, "--planner", name)
-    assert (
-        same.exit_code,
-        same.stdout.startswith("the same: error (planner 'Raises' raised RuntimeError: no idea"),
-    ) == (0, True)
-    assert "Traceback" in same.stderr
-    assert "is not the planner of the trial" in invoke(*words, "--planner", "phia").stderr
-
-
-@pytest.mark.slow
-def test_any_part_in_a_file_is_repeated_only_if_it_is_given(invoke: Invoke) -> None:
-    Path("goals.py").write_text("from phframe.pushing.retrieve import Retrieve\nclass Mine(Retrieve):\n    pass\n")
-    name = "./goals.py:Mine"
-    assert invoke("bench", "vieira/simple-01", "--planner", "phia", "--goal", name, *HERE).exit_code == 0
-    words = ("bench", "replay", "here", "vieira/simple-01", "phia", "0", "--no-rerun")
-    refused = invoke(*words)
-    assert refused.exit_code == 2
-    assert f"give it yourself, as in --goal {name}" in refused.stderr
-    assert invoke(*words, "--goal", name).stdout.startswith("the same: ")
-    assert "is not the plan backend of the trial" in invoke(*words, "--plan-backend", "mujoco").stderr
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
-def test_after_kill_9_no_child_lives_on_and_it_goes_on_where_it_was(spawn: Spawn, run: Run) -> None:
-    hanging = f"{misbehaving('ForksAndHangs')}[mark=ids]"
-    words = ("bench", "vieira/simple-01", "--planner", "phia", "--planner", hanging, "--workers", "2", *HERE)
-    process = spawn(*words)
-    until(lambda: len(noted(Path("ids"))) == 3 and done("here") == 1, process)
-    assert all(lives(each) for each in noted(Path("ids")))
-    process.kill()
-    process.communicate()
-    until(lambda: not [each for each in noted(Path("ids")) if lives(each)])
-    again = run(*words, "--filter", "phia")
-    assert "0 of 2 trials to run" in again.stderr
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM], ids=lambda by: by.name)
-def test_an_interruption_ends_what_runs_keeps_what_is_done_and_says_how_to_go_on(
-    spawn: Spawn, by: signal.Signals
-) -> None:
-    hanging = f"{misbehaving('ForksAndHangs')}[mark=ids]"
-    process = spawn("bench", "vieira/simple-01", "--planner", "phia", "--planner", hanging, "--workers", "2", *HERE)
-    until(lambda: len(noted(Path("ids"))) == 3 and done("here") == 1, process)
-    process.send_signal(by)
-    out, err = process.communicate(timeout=60)
-    assert (process.returncode, out) == (130, "")
-    assert err.splitlines()[-1] == "interrupted; what was done is kept: go on with the same command and --out here"
-    until(lambda: not [each for each in noted(Path("ids")) if lives(each)])
-    assert done("here") == 1
-
-
-def done(directory: str) -> int:
-    """How many trials have a result."""
-    if not ResultStore.is_in(directory):
-        return 0
-    with ResultStore.open(directory) as store:
-        return len(store.done())
-
-
-def has(results: int) -> bool:
-    """Whether there are so many results."""
-    return done("here") >= results
-
-
-@pytest.mark.slow
-def test_killed_again_and_again_it_ends_as_if_undisturbed(spawn: Spawn, run: Run, finished: Path) -> None:
-    random = Random(4)
-    for _ in range(5):
-        process = spawn(*SMALL, "--workers", "2", *HERE)
-        until(partial(has, min(6, done("here") + random.randrange(2))), process)
-        with suppress(subprocess.TimeoutExpired):
-            process.wait(random.random())
-        process.kill()
-        process.communicate()
-    assert run(*SMALL, *HERE).returncode == 0
-    assert rows("here") == rows(finished)
-    assert {row["end"] for row in rows("here")} == {TrialEnd.FINISHED}
 
 
 def test_the_shell_is_offered_commands_suites_and_options() -> None:

@@ -1,4 +1,4 @@
-"""How sure a plan is: a share of samples, saved and loaded with the plan."""
+"""How sure a plan is: a fraction of samples, saved and loaded with the plan."""
 
 from __future__ import annotations
 

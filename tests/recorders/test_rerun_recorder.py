@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -11,7 +10,6 @@ import pytest
 
 pytest.importorskip("rerun")
 
-import rerun as rr
 import rerun.blueprint as rrb
 
 from phframe.core import (
@@ -19,7 +17,6 @@ from phframe.core import (
     Condition,
     Decision,
     FloatArray,
-    InputError,
     SearchTree,
     Shape,
     State,
@@ -34,26 +31,10 @@ from phframe.recorders.stream import Stream
 from phframe.recorders.tree_entities import MOST_SHOWN, layout, omitted_label
 from tests.prism import PRISM
 from tests.recorders.reading import Recording
-from tests.recorders.synthetic_episode import SCENE, SPEC, Recorded, failed_plan, hand_made, mounted
+from tests.recorders.recorded import record
+from tests.recorders.synthetic_episode import SCENE, SPEC, Recorded, failed_plan, mounted
 
 pytestmark = pytest.mark.needs_rerun
-
-
-@pytest.fixture(scope="module")
-def made() -> Recorded:
-    return hand_made()
-
-
-def record(made: Recorded, path: Path) -> None:
-    recorder, episode = RerunRecorder(path), made.episode
-    recorder.begin(episode.scene, episode.spec, made.arm)
-    recorder.planned(episode.plans[0])
-    recorder.stepped(episode.steps[0], made.frames[0])
-    recorder.planned(episode.plans[1])
-    for step, frames in zip(episode.steps[1:], made.frames[1:], strict=True):
-        recorder.stepped(step, iter(frames))
-    recorder.finished(episode)
-    recorder.close()
 
 
 @pytest.fixture(scope="module")
@@ -239,73 +220,6 @@ def test_setup_is_kept_with_the_recording(recording: Recording) -> None:
 
 def test_names_in_discs_are_short(recording: Recording) -> None:
     assert recording.constant("/top/names", "labels") == ["1", "2", "3", "4", "target"]
-
-
-def test_interrupted_action_keeps_the_frames_seen(made: Recorded, tmp_path: Path) -> None:
-    def interrupted() -> Iterator[tuple[float, State]]:
-        yield from made.frames[0][:60]
-        raise KeyboardInterrupt
-
-    recorder = RerunRecorder(tmp_path / "interrupted.rrd")
-    recorder.begin(SCENE, SPEC, made.arm)
-    recorder.planned(made.episode.plans[0])
-    with pytest.raises(KeyboardInterrupt):
-        recorder.stepped(made.episode.steps[0], interrupted())
-    recorder.close()
-    rows = Recording(recorder.path).rows("/world/arm/link", "translation")
-    assert rows[-1][0] == pytest.approx(made.frames[0][59][0])
-
-
-def test_file_grows_action_by_action(made: Recorded, tmp_path: Path) -> None:
-    recorder = RerunRecorder(tmp_path / "growing.rrd")
-    recorder.begin(SCENE, SPEC, made.arm)
-    sizes = []
-    for step, frames in zip(made.episode.steps, made.frames, strict=True):
-        recorder.stepped(step, frames)
-        sizes.append(recorder.path.stat().st_size)
-    recorder.close()
-    assert sizes == sorted(set(sizes))
-
-
-def test_close_twice_and_before_the_beginning(made: Recorded, tmp_path: Path) -> None:
-    recorder = RerunRecorder(tmp_path / "empty.rrd")
-    recorder.close()
-    recorder.stepped(made.episode.steps[0], made.frames[0])
-    assert not recorder.path.exists(), "nothing is written before an episode begins"
-    recorder.begin(SCENE, SPEC, made.arm)
-    recorder.close()
-    recorder.close()
-    assert "/world/objects/mug" in Recording(recorder.path).entities
-
-
-def test_unwritable_path_is_a_clear_error(made: Recorded, tmp_path: Path) -> None:
-    recorder = RerunRecorder(tmp_path / "missing" / "episode.rrd")
-    with pytest.raises(InputError, match=r"cannot write the recording .*missing.*No such file or directory"):
-        recorder.begin(SCENE, SPEC, made.arm)
-    recorder.close()
-
-
-@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="threads are counted as Linux lists them")
-def test_no_thread_is_left_behind(made: Recorded, tmp_path: Path) -> None:
-    def threads() -> int:
-        return sum(1 for _ in Path("/proc/self/task").iterdir())
-
-    def fail() -> None:
-        with pytest.raises(InputError):
-            record(made, tmp_path / "nowhere" / "episode.rrd")
-
-    record(made, tmp_path / "first.rrd")  # which starts the threads that all recordings share
-    before = threads()
-    for number in range(5):
-        record(made, tmp_path / f"{number}.rrd")
-        fail()
-    assert threads() <= before
-
-
-def test_no_global_recording_is_touched(made: Recorded, tmp_path: Path) -> None:
-    record(made, tmp_path / "one.rrd")
-    assert rr.get_global_data_recording() is None
-    assert rr.get_thread_local_data_recording() is None
 
 
 def test_decision_without_anything_and_no_frames(made: Recorded, tmp_path: Path) -> None:

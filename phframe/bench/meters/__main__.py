@@ -17,7 +17,7 @@ from phframe.bench.meters.certainty import measure_certainty
 from phframe.bench.meters.ensemble import measure_ensemble
 from phframe.bench.meters.outcomes import Outcome, Tally, deviations, run_suite, tally
 from phframe.bench.meters.overhead import measure
-from phframe.bench.meters.single import diagram_time, help_times
+from phframe.bench.meters.single import diagram_time, help_times, solve_times
 from phframe.bench.meters.space import fit_in_space, measure_in_space
 from phframe.core import PhframeError
 from phframe.core.files import write_file
@@ -142,12 +142,16 @@ def _add(table: Table, figure: str, values: Sequence[float], bar: str) -> None:
 def _single(console: Console) -> dict[str, float]:
     ripser, linkage = diagram_time("ripser"), diagram_time("single-linkage")
     ours, bare = help_times()
+    watched, plain = solve_times().T
     table = Table("figure", "value", "bar", title="Single figures")
     table.add_row("one diagram of 20 points, Ripser (microseconds)", f"{ripser * 1e6:.0f}", "100")
     table.add_row("one diagram of 20 points, single linkage (microseconds)", f"{linkage * 1e6:.0f}", "")
     table.add_row("phframe --help over a bare typer program", f"{ours / bare:.2f}", "2")
+    table.add_row("phframe solve, watched, over the same in one process", f"{median(watched / plain):.2f}", "")
+    table.add_row("the first takes longer than the second by (ms)", f"{median(watched - plain) * 1e3:.0f}", "30")
     console.print(table)
-    return {"ripser_diagram": ripser, "single_linkage_diagram": linkage, "help": ours, "bare_typer_help": bare}
+    figures = {"ripser_diagram": ripser, "single_linkage_diagram": linkage, "help": ours, "bare_typer_help": bare}
+    return {**figures, "watched_solve": float(median(watched)), "plain_solve": float(median(plain))}
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Whether ``Plan.certainty`` can be trusted: the share of samples in which a plan is clean, beside how often it really is.
+"""Whether ``Plan.certainty`` can be trusted: the fraction of samples in which a plan is clean, beside how often it really is.
 
 The first plan of ``sure`` is taken, whatever its share, and carried out as it is: no replan mends it.
 """
@@ -31,7 +31,7 @@ class CertaintyBin:
     """The plans whose shares are alike.
 
     Attributes:
-        least: The least share of the bin.
+        least: The least fraction of the bin.
         most: The bound above it.
         plans: How many there are.
         expected: Their mean share.
@@ -67,7 +67,7 @@ def measure_certainty(console: Console, scenes: Sequence[str], seeds: int, backe
 
 
 def _outcome(scene: str, seed: int, backend: str) -> tuple[float, bool] | None:
-    """The share of the first plan, and whether it came off; None: none was found."""
+    """The fraction of the first plan, and whether it came off; None: none was found."""
     episode = run(RunSpec(scene, "sure", backend, options={"planner": PLANNER}, seed=seed, loop=OPEN_LOOP, noise=NOISE))
     plan = episode.plans[0]
     if plan.status is not Status.RETRIEVED or plan.certainty is None or plan.certainty.share is None:
@@ -88,7 +88,7 @@ def binned(found: Sequence[tuple[float, bool]]) -> list[CertaintyBin]:
 
 
 def _print(console: Console, backend: str, runs: int, bins: Sequence[CertaintyBin]) -> None:
-    columns = ("share of samples", "plans", "mean share", "came off clean", "95 % interval")
+    columns = ("fraction of samples", "plans", "mean fraction", "came off clean", "95 % interval")
     title = (
         f"First plans of sure, {sum(each.plans for each in bins)} in {runs} runs, carried out in {backend} as they are"
     )
